@@ -1,0 +1,81 @@
+// The program: one command line, a table of subcommands.
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/options.h"
+
+namespace {
+
+using app::Action;
+
+constexpr int bad_usage = static_cast<int>(scene::Exit::bad_input);
+constexpr int failed = static_cast<int>(scene::Exit::failed);
+
+int complain(const std::string& where, const std::string& text, int status) {
+  std::fprintf(stderr, "%s: %s\n", where.c_str(), text.c_str());
+  return status;
+}
+
+// The subcommand on the command line, if any: errors and help are about it.
+const CLI::App& chosen(const CLI::App& program) {
+  const auto subcommands = program.get_subcommands();
+  return subcommands.empty() ? program : *subcommands.front();
+}
+
+int run(int argc, char** argv) {
+  CLI::App program("Otter draws 3D the way the first PlayStation did: an ordering table, and no depth.",
+                   "otter");
+  program.require_subcommand(1);
+  program.set_version_flag("--version", "otter " OTTER_VERSION);
+  program.set_help_flag("-h,--help", "print this help");
+  program.footer("otter COMMAND --help tells more, with examples.");
+  program.get_formatter()->column_width(34);
+
+  std::vector<std::pair<CLI::App*, Action>> actions;
+  for (const auto& command : app::commands) {
+    CLI::App* sub = program.add_subcommand(command.name, command.help);
+    sub->footer(std::string("Examples:\n") + command.examples);
+    actions.emplace_back(sub, command.add(*sub));
+  }
+
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::Success& help_or_version) {
+    return program.exit(help_or_version);
+  } catch (const CLI::ParseError& error) {
+    const std::string name = &chosen(program) == &program ? "otter" : "otter " + chosen(program).get_name();
+    return complain(name, app::one_line(error) + " (see " + name + " --help)", bad_usage);
+  }
+  for (const auto& [sub, action] : actions) {
+    if (!sub->parsed()) continue;
+    const auto status = action();
+    if (!status)
+      return complain("otter " + sub->get_name(), status.error().text, static_cast<int>(status.error().exit));
+    // A full disk or a closed pipe shows when the last of stdout is written.
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+      return complain("otter " + sub->get_name(), "standard output: cannot be written", failed);
+    }
+    return *status;
+  }
+  return bad_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return complain("otter", "not enough memory for this input", failed);
+  } catch (const std::exception& error) {
+    return complain("otter", error.what(), failed);
+  }
+}

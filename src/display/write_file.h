@@ -1,0 +1,19 @@
+#pragma once
+// The one way in which this program makes a file: whole, or not at all.
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+#include "scene/error.h"
+
+namespace display {
+
+/// Writes `bytes` under a temporary name beside `path` and renames it, so that nobody ever reads half a file
+/// and an old one survives a failure. A device or pipe (/dev/stdout) is written directly. Error (exit 1):
+/// "PATH: cannot be written: REASON"; the temporary file is gone.
+scene::Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+scene::Result<void> write_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace display
