@@ -1,0 +1,137 @@
+#pragma once
+// A world becomes a list of GP0 packets in main RAM: animate, project, cull, clip, sort into the table.
+//
+// VRAM: the frame buffers stand at (0,0) and, in 240-line modes, (0,240); 480-line modes have one. Textures
+// lie to the right of them, colour tables below (scene/texture.h).
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ot/packet.h"
+#include "scene/error.h"
+#include "scene/knobs.h"
+#include "scene/world.h"
+
+namespace ot {
+class MainRam;
+}
+namespace gpu {
+class Gpu;
+}
+
+namespace scene {
+
+/// Why a face of the scene is not in the list. None of them costs a visible pixel but `unrepresentable`.
+enum class Drop : std::uint8_t {
+  back_face,        ///< NCLIP: seen from behind, or no area on the screen
+  outside,          ///< wholly beyond one side of the picture
+  near_plane,       ///< wholly nearer than the near plane
+  far_plane,        ///< wholly farther than 65535 units
+  unrepresentable,  ///< its instance's matrix does not fit 1.3.12, or is not finite
+};
+inline constexpr std::array drop_names{"back face", "outside", "near plane", "far plane", "unrepresentable"};
+inline constexpr std::size_t drop_reasons = drop_names.size();
+
+/// What one frame was made of and how long each stage took.
+struct FrameStats {
+  std::uint32_t vertices = 0;                         ///< projected, those that clipping made included
+  std::uint32_t faces = 0;                            ///< faces and lines of all instances
+  std::array<std::uint32_t, drop_reasons> dropped{};  ///< faces and lines that drew nothing, by Drop
+  std::uint32_t clipped = 0;                          ///< faces and lines that were cut
+  std::uint32_t primitives = 0;                       ///< polygons and lines in the lists
+  std::uint32_t lists = 0;                            ///< 1 unless the frame did not fit into RAM at once
+  std::uint32_t words = 0;                            ///< payload words of all primitives and annotations
+  std::uint32_t ram_bytes = 0;                        ///< table and packets, the largest list
+  double gte_ms = 0;                                  ///< animate, transform, light
+  double ot_ms = 0;                                   ///< cull, clip, packets, insertion
+  double raster_ms = 0;                               ///< walk and draw (filled by render_frame)
+  [[nodiscard]] std::uint32_t dropped_by(Drop reason) const {
+    return dropped[static_cast<std::size_t>(reason)];
+  }
+};
+
+/// Depths in the list: only if a knob needs them, or always (recording for both ways of drawing, inspection).
+enum class Annotate : std::uint8_t { when_needed, always };
+
+/// The list that is in RAM now. A frame that fits has one. Otherwise `nearer_lists` more follow: draw this
+/// one, then FrameBuilder::next puts the next nearer one in its place.
+struct Frame {
+  std::uint32_t number = 0;  ///< t * 60, rounded: its parity chooses the buffer
+  std::uint32_t head = 0;    ///< address of the first tag: environment, then the table, far to near
+  std::uint32_t table_address =
+      0;                      ///< bucket b's tag is at table_address + 4 * b (visibility ot, bsp, zbuffer)
+  std::uint32_t buckets = 0;  ///< length of that table; 0: none (sorted)
+  std::uint32_t nearer_lists = 0;  ///< lists still to come
+  std::int32_t buffer_y = 0;       ///< where in VRAM this frame is drawn: (0, buffer_y)
+  FrameStats stats;
+};
+
+/// A polygon as it will be drawn: the seam for everything that orders polygons in its own way (bsp, truth).
+struct ScreenPolygon {
+  ot::Polygon packet;          ///< with drawing-area coordinates, before the draw offset
+  ot::DepthAnnotation depth;   ///< always filled, fractions too
+  std::uint32_t otz = 0;       ///< 0..65535 on the scale of the sort key, bias not added
+  std::uint32_t bucket = 0;    ///< with bias, clamped to the table
+  std::uint32_t instance = 0;  ///< index into World::instances
+  std::uint32_t face = 0;      ///< index into its mesh's faces, as given (before subdivision)
+  std::uint32_t window = 0;    ///< E2h word it needs (texture repeat)
+};
+
+/// One scene, ready to be built frame by frame. Keeps its own copy of the world, which it animates.
+class FrameBuilder {
+ public:
+  /// Scales and packs the textures, turns meshes into 16-bit vertices. Never fails: what did not fit is in
+  /// report().
+  FrameBuilder(const Scene& scene, const Knobs& knobs);
+  ~FrameBuilder();
+  FrameBuilder(FrameBuilder&&) noexcept;
+  FrameBuilder& operator=(FrameBuilder&&) noexcept;
+  FrameBuilder(const FrameBuilder&) = delete;
+  FrameBuilder& operator=(const FrameBuilder&) = delete;
+
+  /// Lines for the user, once: scale, textures that were shrunk, repeats that were split.
+  [[nodiscard]] const std::vector<std::string>& report() const;
+  /// GTE units per world unit, chosen or given.
+  [[nodiscard]] double units_per_world() const;
+
+  /// GP0(A0h) uploads of all textures, display mode and range by GP1. Call once, and again after the GPU was
+  /// reset or the size or subdivide knob changed (needs_upload()).
+  void upload(gpu::Gpu& gpu);
+  [[nodiscard]] bool needs_upload(const Knobs& knobs) const;
+  /// The same words, for recording: GP0 words of the textures, GP1 words of the display.
+  [[nodiscard]] std::vector<std::uint32_t> upload_gp0() const;
+  [[nodiscard]] std::vector<std::uint32_t> display_gp1() const;
+
+  /// The state of the world at `seconds`, as a list in `ram` (whose whole contents may be overwritten).
+  /// Error: one bucket alone does not fit (bytes needed and available are named).
+  [[nodiscard]] Result<Frame> build(double seconds, const Knobs& knobs, ot::MainRam& ram,
+                                    Annotate annotate = Annotate::when_needed);
+  /// Puts the next nearer list into `ram`; needs frame.nearer_lists > 0 and the knobs of build().
+  [[nodiscard]] Result<void> next(Frame& frame, ot::MainRam& ram);
+
+  /// What build() would insert, in that order, lines left out. For visibility bsp and for inspection.
+  void polygons(double seconds, const Knobs& knobs, std::vector<ScreenPolygon>& out);
+
+  /// GP1(05h) word that shows `frame` once it is drawn.
+  [[nodiscard]] static std::uint32_t show_gp1(const Frame& frame);
+
+  /// The camera that the frame is seen from; empty: the scene's own. For free flight in the window.
+  void set_camera(const Camera* camera);
+  /// The world as the last build() left it.
+  [[nodiscard]] const World& world() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// True if these knobs draw with the depths of annotation words.
+[[nodiscard]] bool needs_depth(const Knobs& knobs);
+/// True if these knobs draw with the fractions of annotation words.
+[[nodiscard]] bool needs_fractions(const Knobs& knobs);
+
+}  // namespace scene

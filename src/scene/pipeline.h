@@ -1,0 +1,24 @@
+#pragma once
+// The straight line a triangle takes, in one function: scene -> GTE -> ordering table -> walker -> GPU.
+
+#include <cstdint>
+
+#include "scene/frame.h"
+
+namespace scene {
+
+/// Draws the scene at `seconds` into the GPU's VRAM and shows it: build, begin_frame, walk the list(s),
+/// end_frame, display start. Sets the depth stage from the knobs (none unless visibility is zbuffer). Needs
+/// FrameBuilder::upload done on this GPU. Error: the frame does not fit, a list is broken, or a polygon
+/// without depth in z-buffer mode.
+[[nodiscard]] Result<FrameStats> render_frame(FrameBuilder& builder, double seconds, const Knobs& knobs,
+                                              ot::MainRam& ram, gpu::Gpu& gpu);
+
+/// The second half: draws the list of `frame`, and the nearer ones if there are any, and shows the picture.
+[[nodiscard]] Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs,
+                                      ot::MainRam& ram, gpu::Gpu& gpu);
+
+/// Time of frame N.
+[[nodiscard]] constexpr double frame_time(std::uint32_t number) { return number / 60.0; }
+
+}  // namespace scene
