@@ -1,0 +1,105 @@
+#include "ot/walker.h"
+
+#include <cstdio>
+
+namespace ot {
+namespace {
+
+/// The tags of a list one by one. Stands on a tag or, when `fault` is set or the list is at its end, before
+/// it.
+template <class Links>
+struct Steps {
+  std::span<const std::uint32_t> memory;
+  std::uint32_t address;
+  std::uint32_t from = no_tag;
+
+  [[nodiscard]] std::size_t index() const { return Links::index(address, memory.size()); }
+  [[nodiscard]] std::uint32_t word() const { return memory[index()]; }
+  [[nodiscard]] bool at_end() const { return address == tag::end; }
+  void step() {
+    const auto next = tag::Next::get(word());
+    from = address;
+    address = next;
+  }
+};
+
+/// The list is known to loop with a period of `length` tags: the first tag that is met twice, who links to
+/// it, and what lies before.
+template <class Links>
+WalkResult describe_loop(std::span<const std::uint32_t> memory, std::uint32_t first, std::size_t length) {
+  WalkResult result{.end = WalkEnd::loop};
+  Steps<Links> behind{memory, first};
+  Steps<Links> ahead{memory, first};
+  const auto step_ahead = [&] {
+    ++result.nodes;
+    result.words += tag::Length::get(ahead.word());
+    ahead.step();
+  };
+  for (std::size_t n = 0; n < length; ++n) step_ahead();
+  while (ahead.index() != behind.index()) {
+    step_ahead();
+    behind.step();
+  }
+  result.bad_tag = ahead.address;
+  result.linked_from = ahead.from;
+  return result;
+}
+
+std::string hex(std::uint32_t address) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%06Xh", static_cast<unsigned>(address));
+  return text;
+}
+
+}  // namespace
+
+template <class Links>
+WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first) {
+  WalkResult result;
+  const auto stop = [&](WalkEnd end, const Steps<Links>& at) {
+    result.end = end;
+    result.bad_tag = at.address;
+    result.linked_from = at.from;
+    return result;
+  };
+  // Brent: remember the tag met at every power of two; a loop meets it again.
+  std::size_t remembered = memory.size();
+  std::size_t since = 0;
+  std::size_t limit = 1;
+  for (Steps<Links> at{memory, first}; !at.at_end(); at.step()) {
+    if (Links::is_outside(at.address, memory.size())) return stop(WalkEnd::outside_ram, at);
+    const auto index = at.index();
+    if (index == remembered) return describe_loop<Links>(memory, first, since);
+    if (since == limit || remembered == memory.size()) {
+      if (since == limit) limit *= 2;
+      remembered = index;
+      since = 0;
+    }
+    const auto length = tag::Length::get(memory[index]);
+    if (index + 1 + length > memory.size()) return stop(WalkEnd::payload_past_end, at);
+    ++since;
+    ++result.nodes;
+    result.words += length;
+  }
+  return result;
+}
+
+template WalkResult validate<ByteLinks>(std::span<const std::uint32_t>, std::uint32_t);
+template WalkResult validate<WordLinks>(std::span<const std::uint32_t>, std::uint32_t);
+
+std::string WalkResult::message() const {
+  const std::string from = linked_from == no_tag ? "the head of the list" : "tag " + hex(linked_from);
+  switch (end) {
+    case WalkEnd::loop:
+      return "tag " + hex(bad_tag) + " is linked again from " + from + " (a loop)";
+    case WalkEnd::outside_ram:
+      return from + " links to " + hex(bad_tag) + ", outside RAM";
+    case WalkEnd::payload_past_end:
+      return "the payload of tag " + hex(bad_tag) + " (linked from " + from + ") runs past the end of RAM";
+    case WalkEnd::done:
+      break;
+  }
+  return std::to_string(nodes) + " tags, " + std::to_string(words) + " words";
+}
+
+}  // namespace ot

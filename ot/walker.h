@@ -1,0 +1,70 @@
+#pragma once
+// walk: follows the links of a list and hands every payload on, in list order. What DMA2 does in linked-list
+// mode, except that the list is checked first: a list that does not end well sends nothing. (The registers of
+// DMA2, which loop for ever as the console does, are ot/dma.h.)
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "ot/links.h"
+#include "ot/main_ram.h"
+
+namespace ot {
+
+enum class WalkEnd : std::uint8_t {
+  done,              ///< the list ended with tag::end
+  loop,              ///< a link leads back to a tag already visited
+  outside_ram,       ///< a link has bit 23 set and is not tag::end
+  payload_past_end,  ///< a payload does not fit between its tag and the end of RAM
+};
+
+inline constexpr std::uint32_t no_tag = 0xffffffff;
+
+struct WalkResult {
+  WalkEnd end = WalkEnd::done;
+  std::uint32_t bad_tag = no_tag;      ///< loop: the first tag met twice; else the tag that cannot be read
+  std::uint32_t linked_from = no_tag;  ///< the tag whose link led there; no_tag: it was the first of the list
+  std::uint32_t nodes = 0;             ///< good tags up to the end or the fault, each counted once
+  std::uint32_t words = 0;             ///< payload words of those
+
+  explicit operator bool() const { return end == WalkEnd::done; }
+  /// One clause: "tag 123000h is linked again from tag 12300Ch (a loop)".
+  [[nodiscard]] std::string message() const;
+  bool operator==(const WalkResult&) const = default;
+};
+
+/// Follows a list from `first` without reading payloads. Time grows with the number of tags, also for a loop
+/// (Brent's cycle search); nothing is allocated. The first tag::end met ends the list, after its payload.
+template <class Links>
+WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first);
+extern template WalkResult validate<ByteLinks>(std::span<const std::uint32_t>, std::uint32_t);
+extern template WalkResult validate<WordLinks>(std::span<const std::uint32_t>, std::uint32_t);
+
+inline WalkResult validate(const MainRam& ram, std::uint32_t first) {
+  return validate<ByteLinks>(ram.words(), first);
+}
+
+/// Calls sink(tag_address, payload) for every node, payloads of 0 words (table entries) included. The address
+/// is the link as stored; the span lies in `memory`, which the sink must not write to. Nothing is sent unless
+/// the whole list is good.
+template <class Links, class Sink>
+WalkResult walk(std::span<const std::uint32_t> memory, std::uint32_t first, Sink&& sink) {
+  const WalkResult result = validate<Links>(memory, first);
+  if (!result) return result;
+  std::uint32_t address = first;
+  for (std::uint32_t n = 0; n < result.nodes; ++n) {
+    const auto index = Links::index(address, memory.size());
+    const auto word = memory[index];
+    sink(address, memory.subspan(index + 1, tag::Length::get(word)));
+    address = tag::Next::get(word);
+  }
+  return result;
+}
+
+template <class Sink>
+WalkResult walk(const MainRam& ram, std::uint32_t first, Sink&& sink) {
+  return walk<ByteLinks>(ram.words(), first, sink);
+}
+
+}  // namespace ot
