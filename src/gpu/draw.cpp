@@ -1,0 +1,244 @@
+// One function per kind of drawing command: words to a decoded primitive, and on to the rasterizer.
+
+#include "gpu/gpu.h"
+#include "gpu/raster.h"
+#include "ot/gp0.h"
+
+namespace gpu {
+
+namespace gp0 = ot::gp0;
+
+namespace {
+
+void put_colour(Vertex& vertex, std::uint32_t word) {
+  vertex.r = static_cast<std::uint8_t>(gp0::colour::R::get(word));
+  vertex.g = static_cast<std::uint8_t>(gp0::colour::G::get(word));
+  vertex.b = static_cast<std::uint8_t>(gp0::colour::B::get(word));
+}
+
+void put_position(Vertex& vertex, std::uint32_t word, const DrawState& state) {
+  vertex.x = gp0::vertex::X::get_signed(word) + state.offset_x();
+  vertex.y = gp0::vertex::Y::get_signed(word) + state.offset_y();
+}
+
+void put_texcoord(Vertex& vertex, std::uint32_t word) {
+  vertex.u = static_cast<std::uint8_t>(gp0::texcoord::U::get(word));
+  vertex.v = static_cast<std::uint8_t>(gp0::texcoord::V::get(word));
+}
+
+void put_corner(Vertex& vertex, std::uint32_t word) {
+  vertex.x = static_cast<std::int32_t>(gp0::area::X::get(word) & 0x3ff);
+  vertex.y = static_cast<std::int32_t>(gp0::area::Y::get(word) & 0x1ff);
+}
+
+}  // namespace
+
+void Gpu::polygon(const std::uint32_t* words) {
+  Primitive& p = current_;
+  p.command = words[0];
+  p.vertex_count = static_cast<std::uint8_t>(gp0::polygon::vertices(words[0]));
+  p.kind = Kind::polygon;
+  const bool is_gouraud = p.is_gouraud(), is_textured = p.is_textured();
+  const std::uint32_t* at = words + 1;
+  for (std::size_t v = 0; v < p.vertex_count; ++v) {
+    Vertex& vertex = p.vertices[v];
+    put_colour(vertex, is_gouraud && v != 0 ? *at++ : words[0]);
+    put_position(vertex, *at++, p.state);
+    if (!is_textured) continue;
+    if (v == 0) p.clut = static_cast<std::uint16_t>(gp0::texcoord::Clut::get(*at));
+    if (v == 1) use_texture_page(gp0::texcoord::Texpage::get(*at));
+    put_texcoord(vertex, *at++);
+  }
+  // A flat polygon reads vertex 0's colour alone; the second half of a gouraud quad starts at vertex 1.
+  if (is_textured) clut_.use(vram_, p.clut, p.state.texel_format());
+  take_depth();
+  begin_command();
+  note(Kind::polygon);
+  draw_polygon({vram_, clut_.entries().data(), trace_, current_draw()}, p, counters_);
+}
+
+/// The page halfword of a textured polygon stays in force. [ps1-tests gp0-e1]
+void Gpu::use_texture_page(std::uint32_t halfword) {
+  const std::uint32_t replaced = texture_disable_allowed_ ? 0x9ff : 0x1ff;
+  std::uint32_t& mode = current_.state.draw_mode;
+  mode = (mode & ~0x9ffU) | (halfword & replaced);
+}
+
+void Gpu::rectangle(const std::uint32_t* words) {
+  Primitive& p = current_;
+  p.kind = Kind::rectangle;
+  p.command = words[0];
+  p.vertex_count = 1;
+  Vertex& corner = p.vertices[0];
+  put_colour(corner, words[0]);
+  put_position(corner, words[1], p.state);
+  // Rectangles wrap once more after the offset.
+  corner.x = sign_extend_11(static_cast<std::uint32_t>(corner.x));
+  corner.y = sign_extend_11(static_cast<std::uint32_t>(corner.y));
+  const std::uint32_t* at = words + 2;
+  if (p.is_textured()) {
+    put_texcoord(corner, *at);
+    p.clut = static_cast<std::uint16_t>(gp0::texcoord::Clut::get(*at++));
+    clut_.use(vram_, p.clut, p.state.texel_format());
+  }
+  constexpr int sizes[] = {0, 1, 8, 16};
+  const auto size = gp0::rectangle::Size::get(words[0]);
+  p.width = size != 0 ? sizes[size] : static_cast<int>(gp0::rectangle::Width::get(*at));
+  p.height = size != 0 ? sizes[size] : static_cast<int>(gp0::rectangle::Height::get(*at));
+  begin_command();
+  note(Kind::rectangle);
+  draw_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+}
+
+void Gpu::line(const std::uint32_t* words) {
+  Primitive& p = current_;
+  p.kind = Kind::line;
+  p.command = words[0];
+  p.vertex_count = 2;
+  const bool is_gouraud = p.is_gouraud();
+  put_colour(p.vertices[0], words[0]);
+  put_position(p.vertices[0], words[1], p.state);
+  put_colour(p.vertices[1], words[is_gouraud ? 2 : 0]);
+  put_position(p.vertices[1], words[is_gouraud ? 3 : 2], p.state);
+  polyline_open_ = gp0::command_of(words[0]) == gp0::Command::polyline;
+  polyline_has_colour_ = false;
+  begin_command();
+  line_segment();
+}
+
+/// Vertices of an open polyline. Only the first word of a vertex can be the terminator: [colour] vertex.
+const std::uint32_t* Gpu::continue_polyline(const std::uint32_t* at, const std::uint32_t* end) {
+  Primitive& p = current_;
+  const bool is_gouraud = (p.command >> 28 & 1) != 0;
+  while (at != end) {
+    const std::uint32_t word = *at++;
+    if (!polyline_has_colour_) {
+      if (gp0::line::is_terminator(word)) {
+        polyline_open_ = false;
+        return at;
+      }
+      if (is_gouraud) {
+        polyline_colour_ = word;
+        polyline_has_colour_ = true;
+        continue;
+      }
+      polyline_colour_ = p.command;
+    }
+    polyline_has_colour_ = false;
+    p.vertices[0] = p.vertices[1];
+    put_colour(p.vertices[1], polyline_colour_);
+    put_position(p.vertices[1], word, p.state);
+    line_segment();
+  }
+  return at;
+}
+
+void Gpu::line_segment() {
+  note(Kind::line);
+  draw_line({vram_, clut_.entries().data(), trace_, current_draw()}, current_, counters_);
+}
+
+/// Position and width are cut to multiples of 16; a size that is a multiple of 1024 or 512 is empty.
+void Gpu::fill(const std::uint32_t* words) {
+  Primitive& p = current_;
+  p.kind = Kind::fill;
+  p.command = words[0];
+  p.vertex_count = 1;
+  put_corner(p.vertices[0], words[1]);
+  p.vertices[0].x &= 0x3f0;
+  p.width = static_cast<int>(((gp0::area::Width::get(words[2]) & 0x3ff) + 15) & ~15U);
+  p.height = static_cast<int>(gp0::area::Height::get(words[2]) & 0x1ff);
+  begin_command();
+  note(Kind::fill);
+  fill_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+}
+
+void Gpu::copy(const std::uint32_t* words) {
+  Primitive& p = current_;
+  p.kind = Kind::copy;
+  p.command = words[0];
+  p.vertex_count = 2;
+  put_corner(p.vertices[0], words[2]);
+  put_corner(p.vertices[1], words[1]);
+  p.width = static_cast<int>(gp0::transfer::width(words[3]));
+  p.height = static_cast<int>(gp0::transfer::height(words[3]));
+  begin_command();
+  note(Kind::copy);
+  copy_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+}
+
+void Gpu::begin_upload(const std::uint32_t* words) {
+  Primitive& p = current_;
+  p.kind = Kind::upload;
+  p.command = words[0];
+  p.vertex_count = 1;
+  put_corner(p.vertices[0], words[1]);
+  p.width = static_cast<int>(gp0::transfer::width(words[2]));
+  p.height = static_cast<int>(gp0::transfer::height(words[2]));
+  begin_command();
+  note(Kind::upload);
+  upload_ = {.x = p.vertices[0].x,
+             .y = p.vertices[0].y,
+             .width = p.width,
+             .height = p.height,
+             .draw = current_draw()};
+}
+
+void Gpu::begin_download(const std::uint32_t* words) {
+  Vertex corner;
+  put_corner(corner, words[1]);
+  download_ = {.x = corner.x,
+               .y = corner.y,
+               .width = static_cast<int>(gp0::transfer::width(words[2])),
+               .height = static_cast<int>(gp0::transfer::height(words[2]))};
+}
+
+const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* end) {
+  const Surface surface{vram_, clut_.entries().data(), trace_, upload_.draw};
+  while (at != end && upload_.is_active()) {
+    const std::uint32_t word = *at++;
+    for (int half = 0; half < 32 && upload_.is_active(); half += 16) {
+      store_transferred(surface, current_.state, upload_.x + upload_.column, upload_.y + upload_.row,
+                        static_cast<std::uint16_t>(word >> half));
+      upload_.advance();
+    }
+  }
+  return at;
+}
+
+/// Hands the annotation over to the polygon that follows it.
+void Gpu::take_depth() {
+  Primitive& p = current_;
+  p.has_depth = p.has_fractions = false;
+  if (annotation_.is_set) {
+    const unsigned all = (1U << p.vertex_count) - 1;
+    p.has_depth = (annotation_.depths & all) == all;
+    p.has_fractions = annotation_.has_fractions;
+    for (std::size_t v = 0; v < p.vertex_count; ++v) {
+      p.vertices[v].z = annotation_.z[v];
+      p.vertices[v].fx = annotation_.fx[v];
+      p.vertices[v].fy = annotation_.fy[v];
+    }
+    annotation_ = {};
+  }
+  if (!p.has_depth && default_depth_) {
+    p.has_depth = true;
+    for (Vertex& vertex : p.vertices) vertex.z = *default_depth_;
+  }
+}
+
+void Gpu::begin_command() { current_.command_number = next_command_++; }
+
+void Gpu::note(Kind kind) {
+  ++counters_.primitives[static_cast<std::size_t>(kind)];
+  if (trace_ == nullptr) return;
+  current_.bucket = trace_->bucket;
+  trace_->draws.push_back(current_);
+}
+
+/// The number under which the trace knows the primitive last noted.
+std::uint32_t Gpu::current_draw() const {
+  return trace_ == nullptr ? 0 : static_cast<std::uint32_t>(trace_->draws.size() - 1);
+}
+
+}  // namespace gpu

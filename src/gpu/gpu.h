@@ -1,0 +1,150 @@
+#pragma once
+// The console's depthless 2D GPU: words in, pixels out, to the bit. [psx-spx, GPU; hardware captures of
+// ps1-tests]
+//
+// Beyond the console, and only when asked: a z-buffer fed by annotation words, and a trace of who wrote what.
+// Not modelled: time (every command completes at once, so the FIFO is always empty), the texture cache
+// (texels are read from VRAM as it is), the second megabyte of VRAM.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "gpu/counters.h"
+#include "gpu/depth.h"
+#include "gpu/display.h"
+#include "gpu/primitive.h"
+#include "gpu/trace.h"
+#include "gpu/transfer.h"
+#include "gpu/vram.h"
+
+namespace gpu {
+
+/// What a z-buffered frame could not do.
+struct FrameEnd {
+  std::uint32_t polygons_without_depth = 0;  ///< drawn in list order, neither tested nor stored
+  std::uint32_t first_without_depth = 0;     ///< command number of the first, if there is any
+  std::uint32_t queued = 0;                  ///< semi-transparent polygons drawn in the second pass
+};
+
+class Gpu {
+ public:
+  /// As after GP1(00h), VRAM all zero.
+  Gpu();
+  ~Gpu();
+  Gpu(Gpu&&) noexcept;
+  Gpu& operator=(Gpu&&) noexcept;
+
+  /// GP0: commands and their data. A command may be split between calls in any way; any word is accepted.
+  void gp0(std::uint32_t word) { gp0(std::span(&word, 1)); }
+  void gp0(std::span<const std::uint32_t> words);
+
+  /// GP1: control.
+  void gp1(std::uint32_t word);
+
+  /// GPUREAD: the next two pixels of a VRAM->CPU transfer, else what GP1(10h) latched.
+  std::uint32_t read();
+
+  /// GPUSTAT of a GPU that is never busy.
+  [[nodiscard]] std::uint32_t status() const;
+
+  [[nodiscard]] Vram& vram() { return vram_; }
+  [[nodiscard]] const Vram& vram() const { return vram_; }
+  [[nodiscard]] const Display& display() const { return display_; }
+  [[nodiscard]] const DrawState& state() const { return current_.state; }
+
+  /// A vertical blank: an interlaced picture goes on with its other field.
+  void next_field();
+
+  // --- z-buffer ---
+
+  /// Sets the depth stage; nothing is the console. Allocates or frees the depth plane; drops what is queued.
+  void set_depth(const std::optional<DepthOptions>& options);
+  /// Depth (20.12) of polygons that bring none; nothing: they are counted as polygons without depth. The
+  /// caller may change it before every node it feeds.
+  void set_default_depth(std::optional<std::uint32_t> z) { default_depth_ = z; }
+  /// z-buffer: empties the depth plane, forgets the queue. Otherwise does nothing but restart command
+  /// numbers.
+  void begin_frame();
+  /// z-buffer: draws the queued semi-transparent polygons, far to near.
+  FrameEnd end_frame();
+  /// nullptr without set_depth.
+  [[nodiscard]] const DepthPlane* depth_plane() const { return depth_.get(); }
+
+  // --- watching ---
+
+  /// nullptr: nobody watches and nothing is paid.
+  void set_trace(Trace* trace) { trace_ = trace; }
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+  void reset_counters() { counters_ = {}; }
+  /// Bytes held besides VRAM, by purpose: depth plane, queue.
+  [[nodiscard]] std::uint64_t depth_bytes() const { return depth_ ? depth_->bytes() : 0; }
+  [[nodiscard]] std::uint64_t queue_bytes() const;
+
+ private:
+  struct Annotation {  // what E7h-EFh said about the next polygon
+    std::array<std::uint32_t, 4> z{};
+    std::array<std::uint8_t, 4> fx{}, fy{};
+    std::uint8_t depths = 0;  // bit v: E8h+v came
+    bool has_fractions = false, has_high_bytes = false, is_set = false;
+  };
+
+  // port.cpp: the GP0 state machine
+  const std::uint32_t* consume(const std::uint32_t* at, const std::uint32_t* end);
+  const std::uint32_t* gather(const std::uint32_t* at, const std::uint32_t* end);
+  const std::uint32_t* continue_polyline(const std::uint32_t* at, const std::uint32_t* end);
+  void execute(const std::uint32_t* words);
+  void annotate(std::uint32_t word);
+  void set_attribute(std::uint32_t word);
+  void abort_command();
+
+  // draw.cpp: one function per kind of command
+  void polygon(const std::uint32_t* words);
+  void rectangle(const std::uint32_t* words);
+  void line(const std::uint32_t* words);
+  void line_segment();
+  void fill(const std::uint32_t* words);
+  void copy(const std::uint32_t* words);
+  void begin_upload(const std::uint32_t* words);
+  void begin_download(const std::uint32_t* words);
+  const std::uint32_t* upload(const std::uint32_t* at, const std::uint32_t* end);
+  void use_texture_page(std::uint32_t halfword);
+  void take_depth();
+  void begin_command();
+  void note(Kind kind);
+  [[nodiscard]] std::uint32_t current_draw() const;
+
+  // control.cpp
+  void latch_register(std::uint32_t number);
+  void update_skipped_rows();
+
+  Vram vram_;
+  Display display_;
+  // The registers E1h-E6h live in current_.state: the primitive being decoded needs no copy of them.
+  Primitive current_;
+  Annotation annotation_;
+  ClutCache clut_;
+  std::array<std::uint32_t, 12> gathered_{};  // the beginning of a command whose rest has not come yet
+  std::size_t gathered_count_ = 0;
+  bool polyline_open_ = false;
+  std::uint32_t polyline_colour_ = 0;  // the gouraud colour that waits for its vertex
+  bool polyline_has_colour_ = false;
+  Transfer upload_, download_;
+  bool texture_disable_allowed_ = false;
+  bool irq_ = false;
+  std::uint32_t dma_direction_ = 0;
+  std::uint32_t latch_ = 0;
+  std::uint32_t next_command_ = 0;
+
+  std::optional<std::uint32_t> default_depth_;
+  std::unique_ptr<DepthPlane> depth_;
+  FrameEnd frame_;
+  Trace* trace_ = nullptr;
+  Counters counters_;
+};
+
+}  // namespace gpu

@@ -1,0 +1,152 @@
+// GP0: words are gathered until a command is whole, then it runs. A command that lies whole in the caller's
+// words is read where it lies.
+
+#include <algorithm>
+
+#include "gpu/gpu.h"
+#include "ot/gp0.h"
+
+namespace gpu {
+
+namespace gp0 = ot::gp0;
+
+Gpu::Gpu() { gp1(0); }
+Gpu::~Gpu() = default;
+Gpu::Gpu(Gpu&&) noexcept = default;
+Gpu& Gpu::operator=(Gpu&&) noexcept = default;
+
+void Gpu::gp0(std::span<const std::uint32_t> words) {
+  counters_.words += words.size();
+  const std::uint32_t* at = words.data();
+  const std::uint32_t* const end = at + words.size();
+  while (at != end) at = consume(at, end);
+}
+
+/// Takes at least one word. What is open comes before what begins: pixels of an upload, vertices of a
+/// polyline, the rest of a command.
+const std::uint32_t* Gpu::consume(const std::uint32_t* at, const std::uint32_t* end) {
+  if (gathered_count_ == 0 && !polyline_open_ && !upload_.is_active()) {
+    const std::size_t needed = gp0::command_words(*at);
+    if (static_cast<std::size_t>(end - at) < needed) return gather(at, end);
+    execute(at);
+    return at + needed;
+  }
+  if (upload_.is_active()) return upload(at, end);
+  if (polyline_open_) return continue_polyline(at, end);
+  return gather(at, end);
+}
+
+const std::uint32_t* Gpu::gather(const std::uint32_t* at, const std::uint32_t* end) {
+  if (gathered_count_ == 0) gathered_[gathered_count_++] = *at++;
+  const std::size_t needed = gp0::command_words(gathered_[0]);
+  const auto taken = std::min(needed - gathered_count_, static_cast<std::size_t>(end - at));
+  std::copy_n(at, taken, gathered_.begin() + static_cast<std::ptrdiff_t>(gathered_count_));
+  gathered_count_ += taken;
+  if (gathered_count_ == needed) {
+    gathered_count_ = 0;
+    execute(gathered_.data());
+  }
+  return at + taken;
+}
+
+void Gpu::execute(const std::uint32_t* words) {
+  switch (gp0::command_of(words[0])) {
+    case gp0::Command::nop:
+      break;
+    case gp0::Command::clear_cache:
+      clut_.invalidate();
+      break;
+    case gp0::Command::irq:
+      irq_ = true;
+      break;
+    case gp0::Command::polygon:
+      polygon(words);
+      break;
+    case gp0::Command::line:
+    case gp0::Command::polyline:
+      line(words);
+      break;
+    case gp0::Command::rectangle:
+      rectangle(words);
+      break;
+    case gp0::Command::fill:
+      fill(words);
+      break;
+    case gp0::Command::copy:
+      copy(words);
+      break;
+    case gp0::Command::upload:
+      begin_upload(words);
+      break;
+    case gp0::Command::download:
+      begin_download(words);
+      break;
+    case gp0::Command::annotation:
+      annotate(words[0]);
+      break;
+    default:
+      set_attribute(words[0]);
+      break;
+  }
+}
+
+void Gpu::set_attribute(std::uint32_t word) {
+  DrawState& state = current_.state;
+  switch (gp0::command_of(word)) {
+    case gp0::Command::draw_mode:
+      state.draw_mode = word & (texture_disable_allowed_ ? 0x3fff : 0x37ff);
+      update_skipped_rows();
+      break;
+    case gp0::Command::texture_window:
+      state.texture_window = word & 0xfffff;
+      break;
+    case gp0::Command::area_top_left:
+      state.area_top_left = word & 0xfffff;
+      break;
+    case gp0::Command::area_bottom_right:
+      state.area_bottom_right = word & 0xfffff;
+      break;
+    case gp0::Command::draw_offset:
+      state.offset = word & 0x3fffff;
+      break;
+    default:
+      state.mask = word & 3;
+      break;
+  }
+}
+
+/// E7h-EFh: kept until the next polygon. A code of the range that means nothing is ignored like on the
+/// console.
+void Gpu::annotate(std::uint32_t word) {
+  namespace annotation = gp0::annotation;
+  const auto opcode = gp0::Opcode::get(word);
+  if (opcode == annotation::depth_high) {
+    const bool second = annotation_.has_high_bytes;
+    const std::uint32_t bytes[] = {annotation::High0::get(word), annotation::High1::get(word),
+                                   annotation::High2::get(word)};
+    for (std::size_t v = second ? 3 : 0; v < (second ? 4U : 3U); ++v) {
+      annotation_.z[v] = (annotation_.z[v] & annotation::DepthLow::mask) | bytes[second ? 0 : v] << 24;
+    }
+    annotation_.has_high_bytes = true;
+  } else if (opcode < annotation::fraction) {
+    const std::size_t v = opcode - annotation::depth_low;
+    annotation_.z[v] = (annotation_.z[v] & ~annotation::DepthLow::mask) | annotation::DepthLow::get(word);
+    annotation_.depths = static_cast<std::uint8_t>(annotation_.depths | 1U << v);
+  } else {
+    const std::size_t v = opcode - annotation::fraction;
+    annotation_.fx[v] = static_cast<std::uint8_t>(annotation::FractionX::get(word));
+    annotation_.fy[v] = static_cast<std::uint8_t>(annotation::FractionY::get(word));
+    annotation_.has_fractions = true;
+  }
+  annotation_.is_set = true;
+}
+
+/// GP1(00h), GP1(01h): whatever is open is dropped.
+void Gpu::abort_command() {
+  gathered_count_ = 0;
+  polyline_open_ = false;
+  upload_ = {};
+  download_ = {};
+}
+
+}  // namespace gpu

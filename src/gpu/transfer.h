@@ -1,0 +1,46 @@
+#pragma once
+// A rectangle of VRAM that is being filled, copied, sent or received, and the cache of one palette.
+
+#include <array>
+#include <cstdint>
+
+#include "gpu/state.h"
+#include "gpu/vram.h"
+
+namespace gpu {
+
+/// A rectangle that words go into or come out of, row by row; both coordinates wrap.
+struct Transfer {
+  int x = 0, y = 0, width = 0, height = 0;
+  int column = 0, row = 0;  ///< the next pixel
+  std::uint32_t draw = 0;   ///< number in the trace
+
+  [[nodiscard]] bool is_active() const { return row < height; }
+  [[nodiscard]] std::int64_t pixels_left() const { return std::int64_t{height - row} * width - column; }
+  void advance() {
+    if (++column == width) {
+      column = 0;
+      ++row;
+    }
+  }
+};
+
+/// The GPU's copy of the palette in use: loaded when a textured primitive names another one, and not when
+/// VRAM changes under it. [ps1-tests clut-cache]
+class ClutCache {
+ public:
+  static constexpr std::uint32_t no_tag = 0xffffffff;
+
+  void invalidate() { tag_ = no_tag; }
+  /// Before a textured primitive. 15-bit textures neither load nor invalidate; a palette loaded for 8-bit
+  /// texels serves 4-bit ones, the other way round it is loaded again.
+  void use(const Vram& vram, std::uint16_t clut, TexelFormat format);
+  [[nodiscard]] const std::array<std::uint16_t, 256>& entries() const { return entries_; }
+
+ private:
+  alignas(64) std::array<std::uint16_t, 256> entries_{};
+  std::uint32_t tag_ = no_tag;  // CLUT halfword without bit 15
+  TexelFormat loaded_ = TexelFormat::clut4;
+};
+
+}  // namespace gpu
