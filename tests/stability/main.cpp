@@ -30,21 +30,24 @@ constexpr const char* marker = "<!-- end of the generated part -->\n";
 
 std::string page() {
   auto all = lines();
-  std::stable_sort(all.begin(), all.end(), [](const Line& a, const Line& b) { return a.section < b.section; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Line& a, const Line& b) { return a.section < b.section; });
   std::ostringstream text;
   text << "# What stays stable, and how far it was tried\n\n"
           "Every line is a test. `build/release/bin/tests_stability -tc=\"NAME\"` repeats one,\n"
-          "`build/release/bin/tests_stability --write docs/stability.md` writes this table, and the test suite fails when\n"
+          "`build/release/bin/tests_stability --write docs/stability.md` writes this table, and the test "
+          "suite fails when\n"
           "the table and the tests disagree. Inputs come from fixed seeds.\n";
   std::string section;
   for (const auto& line : all) {
     if (line.section != section) {
       section = line.section;
-      text << "\n## " << section << "\n\n| case | what could go wrong | promised | worst seen | inputs | test |\n"
+      text << "\n## " << section
+           << "\n\n| case | what could go wrong | promised | worst seen | inputs | test |\n"
            << "| --- | --- | --- | --- | --- | --- |\n";
     }
-    text << "| " << line.name << " | " << line.risk << " | " << line.bound << " | " << number(line.worst) << " "
-         << line.unit << " | " << line.inputs << " | `" << line.test << "` |\n";
+    text << "| " << line.name << " | " << line.risk << " | " << line.bound << " | " << number(line.worst)
+         << " " << line.unit << " | " << line.inputs << " | `" << line.test << "` |\n";
   }
   text << "\n" << marker;
   return text.str();
