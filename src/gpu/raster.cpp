@@ -20,12 +20,20 @@ struct Colour {
   int r, g, b;
 };
 
-void store(const Surface& s, int x, int y, u16 pixel, bool blended) {
+void store(const Surface& s, int x, int y, u16 pixel, u16 fragment, bool blended) {
   u16& target = s.vram.at(x, y);
   if (s.trace != nullptr) {
     const auto at = static_cast<u32>(Vram::offset(x, y));
     s.trace->last_writer[at] = s.draw + 1;
-    if (s.trace->keep_history) s.trace->history.push_back({at, s.draw, target, pixel, blended});
+    if (s.trace->keep_history) {
+      s.trace->history.push_back({.pixel = at,
+                                  .draw = s.draw,
+                                  .before = target,
+                                  .after = pixel,
+                                  .fragment = fragment,
+                                  .half = s.half,
+                                  .blended = blended});
+    }
   }
   target = pixel;
 }
@@ -87,8 +95,9 @@ void shade_pixel(const Surface& s, const Primitive& p, int x, int y, Colour c, i
     }
   }
   const bool blends = p.is_semi_transparent() && (!p.is_textured() || (texel & 0x8000) != 0);
-  if (blends) colour = blend(state.blend(), before, colour);
-  store(s, x, y, static_cast<u16>(colour | (texel & 0x8000) | state.mask_set()), blends);
+  const auto top_bit = static_cast<u16>((texel & 0x8000) | state.mask_set());
+  const u16 result = blends ? blend(state.blend(), before, colour) : colour;
+  store(s, x, y, result | top_bit, colour | top_bit, blends);
 }
 
 /// The triangle's leftmost corner, ties as the hardware has them; gradients start there.
@@ -159,7 +168,10 @@ void draw_triangle(const Surface& s, const Primitive& p, std::array<const Vertex
 void draw_polygon(const Surface& s, const Primitive& p, Counters& counters) {
   const auto& v = p.vertices;
   draw_triangle(s, p, {&v[0], &v[1], &v[2]}, counters);
-  if (p.is_quad()) draw_triangle(s, p, {&v[1], &v[2], &v[3]}, counters);
+  if (!p.is_quad()) return;
+  Surface second = s;
+  second.half = 1;
+  draw_triangle(second, p, {&v[1], &v[2], &v[3]}, counters);
 }
 
 void draw_rectangle(const Surface& s, const Primitive& p) {
@@ -220,7 +232,7 @@ void fill_rectangle(const Surface& s, const Primitive& p) {
   for (int j = 0; j < p.height; ++j) {
     const int y = (p.vertices[0].y + j) & 511;
     if (p.state.skips(y)) continue;
-    for (int i = 0; i < p.width; ++i) store(s, p.vertices[0].x + i, y, colour, false);
+    for (int i = 0; i < p.width; ++i) store(s, p.vertices[0].x + i, y, colour, colour, false);
   }
 }
 
@@ -239,7 +251,8 @@ void copy_rectangle(const Surface& s, const Primitive& p) {
 
 void store_transferred(const Surface& s, const DrawState& state, int x, int y, u16 pixel) {
   if ((s.vram.at(x, y) & state.mask_test()) != 0) return;
-  store(s, x, y, static_cast<u16>(pixel | state.mask_set()), false);
+  const auto stored = static_cast<u16>(pixel | state.mask_set());
+  store(s, x, y, stored, stored, false);
 }
 
 }  // namespace gpu

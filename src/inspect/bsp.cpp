@@ -100,7 +100,8 @@ class EdgeFinder {
   // Insertion: the order of the pixel before is nearly always right already.
   void sort_at(int x, int y) {
     for (std::size_t i = 1; i < stack_.size(); ++i) {
-      for (std::size_t k = i; k > 0 && before(stack_[k], stack_[k - 1], x, y); --k) std::swap(stack_[k], stack_[k - 1]);
+      for (std::size_t k = i; k > 0 && before(stack_[k], stack_[k - 1], x, y); --k)
+        std::swap(stack_[k], stack_[k - 1]);
     }
   }
 
@@ -184,8 +185,12 @@ class Splitter {
     Set behind, in_front;
     for (Piece& piece : pieces) {
       switch (side(piece, divider.triangle)) {
-        case Side::behind: behind.pieces.push_back(std::move(piece)); break;
-        case Side::in_front: in_front.pieces.push_back(std::move(piece)); break;
+        case Side::behind:
+          behind.pieces.push_back(std::move(piece));
+          break;
+        case Side::in_front:
+          in_front.pieces.push_back(std::move(piece));
+          break;
         case Side::both:
           auto [far, near] = cut(piece, divider.triangle);
           behind.pieces.push_back(std::move(far));
@@ -245,7 +250,8 @@ class Splitter {
       }
       const auto is_behind = [&](int x) { return depths_.is_before(piece.triangle, divider, x, y); };
       const bool left_is_behind = is_behind(span.left);
-      int same = span.left, other = span.right;  // the last pixel known to be as the left one, the first not to be
+      int same = span.left,
+          other = span.right;  // the last pixel known to be as the left one, the first not to be
       while (other - same > 1) {
         const int middle = same + (other - same) / 2;
         (is_behind(middle) == left_is_behind ? same : other) = middle;

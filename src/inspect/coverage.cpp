@@ -41,10 +41,12 @@ Rows covered_rows(std::array<Corner, 3> corners, const Area& area) {
   Rows rows{first, {}};
   for (int y = first; y < end; ++y) {
     const std::int64_t along = first_pixel(upper, lower, y);
-    const std::int64_t across = y * 256 < middle.y ? first_pixel(upper, middle, y) : first_pixel(middle, lower, y);
+    const std::int64_t across =
+        y * 256 < middle.y ? first_pixel(upper, middle, y) : first_pixel(middle, lower, y);
     const auto left = std::max<std::int64_t>(std::min(along, across), area.left);
     const auto right = std::min<std::int64_t>(std::max(along, across), area.right + 1);
-    rows.spans.push_back(left < right ? Span{static_cast<std::int32_t>(left), static_cast<std::int32_t>(right)} : Span{});
+    rows.spans.push_back(
+        left < right ? Span{static_cast<std::int32_t>(left), static_cast<std::int32_t>(right)} : Span{});
   }
   trim(rows);
   return rows;

@@ -1,6 +1,7 @@
 #pragma once
-// Which pixels a triangle covers: the hardware's rule, with sub-pixel corners allowed. Sample points are the integer
-// coordinates; left and top edges are inside, right and bottom edges are not. [reference: psx-spx, ps1-tests]
+// Which pixels a triangle covers: the hardware's rule, with sub-pixel corners allowed. Sample points are the
+// integer coordinates; left and top edges are inside, right and bottom edges are not. [reference: psx-spx,
+// ps1-tests]
 
 #include <algorithm>
 #include <array>
@@ -23,7 +24,9 @@ struct Rows {
   int top = 0;
   std::vector<Span> spans;
 
-  [[nodiscard]] int bottom() const { return top + static_cast<int>(spans.size()); }  ///< one past the last row
+  [[nodiscard]] int bottom() const {
+    return top + static_cast<int>(spans.size());
+  }  ///< one past the last row
   [[nodiscard]] Span at(int y) const {
     return y < top || y >= bottom() ? Span{} : spans[static_cast<std::size_t>(y - top)];
   }
@@ -41,8 +44,8 @@ struct Area {
   bool operator==(const Area&) const = default;
 };
 
-/// The covered pixels of `corners` inside `area`. A row that holds none is an empty span; no rows at top and bottom
-/// are empty. Corners within corner_limit; the size rule is the caller's.
+/// The covered pixels of `corners` inside `area`. A row that holds none is an empty span; no rows at top and
+/// bottom are empty. Corners within corner_limit; the size rule is the caller's.
 Rows covered_rows(std::array<Corner, 3> corners, const Area& area);
 
 /// Drops empty rows at top and bottom.

@@ -9,8 +9,9 @@
 namespace inspect {
 namespace {
 
-// |x|, |y| <= 2^20, so differences are at most 2^21, a weight and D at most 2^43; z is below 2^32. A side of the
-// comparison, (w0 z1 z2 + w1 z0 z2 + w2 z0 z1) * D' z0' z1' z2', stays below 3 * 2^43+64 * 2^43+96 < 2^248.
+// |x|, |y| <= 2^20, so differences are at most 2^21, a weight and D at most 2^43; z is below 2^32. A side of
+// the comparison, (w0 z1 z2 + w1 z0 z2 + w2 z0 z1) * D' z0' z1' z2', stays below 3 * 2^43+64 * 2^43+96 <
+// 2^248.
 using Wide = boost::multiprecision::int256_t;
 static_assert(corner_limit == 1 << 20 && 2 + (43 + 64) + (43 + 96) < 256);
 
@@ -22,9 +23,10 @@ std::int64_t doubled_area(std::int64_t ax, std::int64_t ay, std::int64_t bx, std
 // Unit of rounding of double.
 constexpr double unit = 0x1p-53;
 
-// value = (sum of w_i * (1/z_i)) / D: w_i and D are exact in double (below 2^53); the reciprocal, the product, two
-// sums and the quotient round once each, so the error is below 6 units of sum |w_i| / z_i / D (magnitude), itself
-// computed with as small an error. 16 units also cover the sum of two slacks and the difference of two values.
+// value = (sum of w_i * (1/z_i)) / D: w_i and D are exact in double (below 2^53); the reciprocal, the
+// product, two sums and the quotient round once each, so the error is below 6 units of sum |w_i| / z_i / D
+// (magnitude), itself computed with as small an error. 16 units also cover the sum of two slacks and the
+// difference of two values.
 constexpr double slack_units = 16 * unit;
 
 }  // namespace

@@ -3,9 +3,9 @@
 //
 // 1/z is affine on the screen. For a triangle with corners (x_i, y_i, z_i) and a sample p it is
 //     1/z(p) = (w0/z0 + w1/z1 + w2/z2) / D
-// with w_i the doubled area of p and the edge opposite corner i, D = w0 + w1 + w2: all integers. So two depths
-// compare as two products of integers, and nothing is ever rounded. A comparison in double with a proven error
-// bound goes first; only what it cannot decide pays for the wide integers.
+// with w_i the doubled area of p and the edge opposite corner i, D = w0 + w1 + w2: all integers. So two
+// depths compare as two products of integers, and nothing is ever rounded. A comparison in double with a
+// proven error bound goes first; only what it cannot decide pays for the wide integers.
 
 #include <array>
 #include <compare>
@@ -16,7 +16,7 @@ namespace inspect {
 /// A corner on the screen.
 struct Corner {
   std::int32_t x = 0, y = 0;  ///< 1/256 pixel, |x|, |y| <= corner_limit
-  std::uint32_t z = 0;        ///< view-space depth, unsigned 20.12; 0 counts as 1/4096, the smallest depth [ours]
+  std::uint32_t z = 0;  ///< view-space depth, unsigned 20.12; 0 counts as 1/4096, the smallest depth [ours]
 };
 
 inline constexpr std::int32_t corner_limit = 1 << 20;
@@ -54,7 +54,8 @@ class InversePlane {
   /// |x|, |y| <= 4096; neither is degenerate.
   friend std::strong_ordering compare_nearness(const InversePlane& a, const InversePlane& b, int x, int y,
                                                DecisionCounts& counts);
-  friend std::strong_ordering compare_nearness_exactly(const InversePlane& a, const InversePlane& b, int x, int y);
+  friend std::strong_ordering compare_nearness_exactly(const InversePlane& a, const InversePlane& b, int x,
+                                                       int y);
 
  private:
   [[nodiscard]] std::array<std::int64_t, 3> weights(int x, int y) const;

@@ -73,7 +73,8 @@ struct Search {
 
 }  // namespace
 
-std::vector<std::vector<std::uint32_t>> components_in_order(std::uint32_t node_count, std::span<const Edge> edges) {
+std::vector<std::vector<std::uint32_t>> components_in_order(std::uint32_t node_count,
+                                                            std::span<const Edge> edges) {
   const Successors successors(node_count, edges);
   Search search(successors, node_count);
   // From the last node down, so that after the reversal nodes without edges keep their order.

@@ -13,13 +13,15 @@ using inspect::Area;
 using inspect::SplitOrder;
 using inspect::Triangle;
 
-using Stacks = std::map<std::pair<int, int>, std::vector<std::uint32_t>>;  // pixel -> triangles, drawn first first
+using Stacks =
+    std::map<std::pair<int, int>, std::vector<std::uint32_t>>;  // pixel -> triangles, drawn first first
 
 Stacks drawn(const SplitOrder& order) {
   Stacks stacks;
   for (const auto& piece : order.pieces) {
     for (int y = piece.rows.top; y < piece.rows.bottom(); ++y) {
-      for (int x = piece.rows.at(y).left; x < piece.rows.at(y).right; ++x) stacks[{x, y}].push_back(piece.triangle);
+      for (int x = piece.rows.at(y).left; x < piece.rows.at(y).right; ++x)
+        stacks[{x, y}].push_back(piece.triangle);
     }
   }
   return stacks;
@@ -130,6 +132,7 @@ TEST_SUITE("inspect") {
       pixels[piece.triangle] += piece.rows.pixels();
       CHECK(piece.is_whole == (piece.rows == covered_rows(triangles[piece.triangle], area)));
     }
-    for (std::size_t t = 0; t < triangles.size(); ++t) CHECK(pixels[t] == covered_rows(triangles[t], area).pixels());
+    for (std::size_t t = 0; t < triangles.size(); ++t)
+      CHECK(pixels[t] == covered_rows(triangles[t], area).pixels());
   }
 }

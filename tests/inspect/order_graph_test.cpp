@@ -14,7 +14,9 @@ TEST_SUITE("inspect") {
     CHECK(components_in_order(3, edges) == Components{{2}, {0}, {1}});
   }
 
-  TEST_CASE("nodes without edges keep their order") { CHECK(components_in_order(3, {}) == Components{{0}, {1}, {2}}); }
+  TEST_CASE("nodes without edges keep their order") {
+    CHECK(components_in_order(3, {}) == Components{{0}, {1}, {2}});
+  }
 
   TEST_CASE("a cycle is one component, and what it blocks comes after it") {
     const std::vector<Edge> edges{{1, 2}, {2, 3}, {3, 1}, {3, 0}, {1, 2}};

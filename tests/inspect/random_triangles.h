@@ -1,6 +1,6 @@
 #pragma once
-// Random triangles on a small screen, with what makes depth comparison hard: common planes, common edges and corners,
-// interpenetration, extreme depths, sub-pixel corners.
+// Random triangles on a small screen, with what makes depth comparison hard: common planes, common edges and
+// corners, interpenetration, extreme depths, sub-pixel corners.
 
 #include <array>
 #include <random>
@@ -40,7 +40,9 @@ class RandomTriangles {
         corner.x &= ~255;
         corner.y &= ~255;
       }
-      if (kind == Kind::extreme) corner.z = between(0, 1) != 0 ? static_cast<std::uint32_t>(engine_()) : static_cast<std::uint32_t>(between(0, 2));
+      if (kind == Kind::extreme)
+        corner.z = between(0, 1) != 0 ? static_cast<std::uint32_t>(engine_())
+                                      : static_cast<std::uint32_t>(between(0, 2));
       // One plane of 1/z for all: z = 720720 / (1 + x + 2y) is whole on a small screen's corners.
       if (kind == Kind::coplanar || kind == Kind::nearly_coplanar) {
         corner.x = between(0, 3) * 512;
