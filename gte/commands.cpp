@@ -1,0 +1,342 @@
+#include "gte/commands.h"
+
+#include "gte/divide.h"
+#include "gte/limits.h"
+
+namespace gte {
+namespace {
+
+using Vector = std::array<std::int16_t, 3>;
+using Sums = std::array<std::int64_t, 3>;
+using Offsets = std::array<std::int32_t, 3>;
+
+Vector vector(const Vertex& v) { return {v.x, v.y, v.z}; }
+Vector ir_vector(const Registers& r) { return {r.ir[1], r.ir[2], r.ir[3]}; }
+
+template <class Format>
+Offsets raw(const std::array<Format, 3>& of) {
+  return {of[0].raw, of[1].raw, of[2].raw};
+}
+
+std::int64_t product(S3_12 m, std::int16_t x) { return std::int64_t{m.raw} * x; }
+
+/// Three products are below 3 * 2^30, so a translation this far from its own limits cannot leave 44 bits, and
+/// no partial sum needs its check.
+bool cannot_overflow(const Offsets& t) {
+  constexpr std::uint32_t margin = 1u << 20;
+  const auto inside = [](std::int32_t v) {
+    return static_cast<std::uint32_t>(v) + (0x80000000u - margin) < 0u - 2 * margin;
+  };
+  return inside(t[0]) & inside(t[1]) & inside(t[2]);
+}
+
+/// Translation + matrix * vector, every partial sum checked.
+Sums transform(Limits& limits, const Matrix& m, const Offsets& t, const Vector& x) {
+  Sums a{};
+  if (cannot_overflow(t)) [[likely]] {
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[i] = std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]) + product(m[i][1], x[1]) +
+             product(m[i][2], x[2]);
+    }
+    return a;
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int component = static_cast<int>(i) + 1;
+    a[i] = limits.mac(component, std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]));
+    a[i] = limits.mac(component, a[i] + product(m[i][1], x[1]));
+    a[i] = limits.mac(component, a[i] + product(m[i][2], x[2]));
+  }
+  return a;
+}
+
+/// The far colour in MVMVA: the hardware loses the first part of the sum, but not its flags.
+Sums transform_far_colour(Limits& limits, const Matrix& m, const Offsets& t, const Vector& x, int shift) {
+  Sums a{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int component = static_cast<int>(i) + 1;
+    const std::int64_t lost = limits.mac(component, std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]));
+    limits.ir(component, static_cast<std::int32_t>(lost >> shift), -0x8000);
+    a[i] = limits.mac(component, product(m[i][1], x[1]));
+    a[i] = limits.mac(component, a[i] + product(m[i][2], x[2]));
+  }
+  return a;
+}
+
+/// MACi and IRi from a sum. IR is limited from the low 32 bits, as the hardware does.
+void store(Registers& r, Limits& limits, Command c, std::size_t i, std::int64_t sum) {
+  r.mac[i] = static_cast<std::int32_t>(sum >> c.shift());
+  r.ir[i] = limits.ir(static_cast<int>(i), r.mac[i], c.lowest_ir());
+}
+void store(Registers& r, Limits& limits, Command c, const Sums& sums) {
+  for (std::size_t i = 0; i < 3; ++i) store(r, limits, c, i + 1, sums[i]);
+}
+
+void push_screen(Registers& r, ScreenXy xy) {
+  r.sxy[0] = r.sxy[1];
+  r.sxy[1] = r.sxy[2];
+  r.sxy[2] = xy;
+}
+
+void push_depth(Registers& r, std::uint16_t z) {
+  r.sz[0] = r.sz[1];
+  r.sz[1] = r.sz[2];
+  r.sz[2] = r.sz[3];
+  r.sz[3] = z;
+}
+
+/// One vertex of RTPS or RTPT; the quotient is what the depth cue of the last one needs.
+std::uint32_t project(Registers& r, Limits& limits, Command c, const Vertex& v) {
+  const Sums a = transform(limits, r.rt, r.tr, vector(v));
+  store(r, limits, c, 1, a[0]);
+  store(r, limits, c, 2, a[1]);
+  const auto z = static_cast<std::int32_t>(a[2] >> 12);
+  limits.ir(3, z, -0x8000);  // FLAG looks at >> 12 whatever sf and lm say, IR3 does not
+  r.mac[3] = static_cast<std::int32_t>(a[2] >> c.shift());
+  r.ir[3] = static_cast<std::int16_t>(std::clamp(r.mac[3], c.lowest_ir(), 0x7fff));
+  push_depth(r, limits.depth(z));
+
+  const Quotient q = divide(r.h, r.sz[3]);
+  limits.bits |= q.overflow ? flag::divide_overflow : 0;
+  const std::int64_t x = r.ofx.raw + std::int64_t{q.value} * r.ir[1];
+  const std::int64_t y = r.ofy.raw + std::int64_t{q.value} * r.ir[2];
+  limits.mac0(x);
+  limits.mac0(y);
+  push_screen(r, {limits.screen_x(x >> 16), limits.screen_y(y >> 16)});
+  return q.value;
+}
+
+void depth_cue(Registers& r, Limits& limits, std::uint32_t quotient) {
+  const std::int64_t p = r.dqb.raw + std::int64_t{quotient} * r.dqa.raw;
+  r.mac[0] = limits.mac0(p);
+  r.ir[0] = limits.ir0(p >> 12);
+}
+
+void push_colour(Registers& r, Limits& limits) {
+  r.rgb[0] = r.rgb[1];
+  r.rgb[1] = r.rgb[2];
+  r.rgb[2] = {limits.colour(1, r.mac[1]), limits.colour(2, r.mac[2]), limits.colour(3, r.mac[3]),
+              r.rgbc.code};
+}
+
+void light(Registers& r, Limits& limits, Command c, std::size_t k) {
+  store(r, limits, c, transform(limits, r.llm, {}, vector(r.v[k])));
+}
+
+void colour(Registers& r, Limits& limits, Command c) {
+  store(r, limits, c, transform(limits, r.lcm, raw(r.bk), ir_vector(r)));
+}
+
+/// The primitive's colour times IR1..3.
+Sums modulated(const Registers& r) {
+  const auto term = [](std::uint8_t channel, std::int16_t ir) { return std::int64_t{channel} * ir * 16; };
+  return {term(r.rgbc.r, r.ir[1]), term(r.rgbc.g, r.ir[2]), term(r.rgbc.b, r.ir[3])};
+}
+
+Sums from_bytes(Colour c) {
+  return {std::int64_t{c.r} << 16, std::int64_t{c.g} << 16, std::int64_t{c.b} << 16};
+}
+
+/// Moves `in` toward the far colour by IR0.
+void cue(Registers& r, Limits& limits, Command c, const Sums& in) {
+  Sums out{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int component = static_cast<int>(i) + 1;
+    const std::int64_t distance = limits.mac(component, std::int64_t{r.fc[i].raw} * 4096 - in[i]);
+    const auto ir = limits.ir(component, static_cast<std::int32_t>(distance >> c.shift()), -0x8000);
+    out[i] = limits.mac(component, in[i] + std::int64_t{ir} * r.ir[0]);
+  }
+  store(r, limits, c, out);
+}
+
+}  // namespace
+
+void rtps(Registers& r, Command c) {
+  Limits limits;
+  depth_cue(r, limits, project(r, limits, c, r.v[0]));
+  r.flag = limits.finish();
+}
+
+void rtpt(Registers& r, Command c) {
+  Limits limits;
+  project(r, limits, c, r.v[0]);
+  project(r, limits, c, r.v[1]);
+  depth_cue(r, limits, project(r, limits, c, r.v[2]));
+  r.flag = limits.finish();
+}
+
+void nclip(Registers& r, Command) {
+  Limits limits;
+  const auto [a, b, c] = r.sxy;
+  r.mac[0] = limits.mac0(std::int64_t{a.x} * (b.y - c.y) + std::int64_t{b.x} * (c.y - a.y) +
+                         std::int64_t{c.x} * (a.y - b.y));
+  r.flag = limits.finish();
+}
+
+void avsz3(Registers& r, Command) {
+  Limits limits;
+  const std::int64_t sum = std::int64_t{r.zsf3.raw} * (r.sz[1] + r.sz[2] + r.sz[3]);
+  r.mac[0] = limits.mac0(sum);
+  r.otz = limits.depth(sum >> 12);
+  r.flag = limits.finish();
+}
+
+void avsz4(Registers& r, Command) {
+  Limits limits;
+  const std::int64_t sum = std::int64_t{r.zsf4.raw} * (r.sz[0] + r.sz[1] + r.sz[2] + r.sz[3]);
+  r.mac[0] = limits.mac0(sum);
+  r.otz = limits.depth(sum >> 12);
+  r.flag = limits.finish();
+}
+
+void mvmva(Registers& r, Command c) {
+  Limits limits;
+  const auto red = static_cast<std::int16_t>(r.rgbc.r << 4);
+  const auto row = [](std::int16_t a, std::int16_t b, std::int16_t d) {
+    return std::array<S3_12, 3>{S3_12{a}, S3_12{b}, S3_12{d}};
+  };
+  const auto same = [&](S3_12 m) { return row(m.raw, m.raw, m.raw); };
+  const Matrix garbage{row(static_cast<std::int16_t>(-red), red, r.ir[0]), same(r.rt[0][2]),
+                       same(r.rt[1][1])};
+  const Matrix& m = c.mx() == 0 ? r.rt : c.mx() == 1 ? r.llm : c.mx() == 2 ? r.lcm : garbage;
+  const Vector x = c.v() == 3 ? ir_vector(r) : vector(r.v[c.v()]);
+  switch (c.cv()) {
+    case 0:
+      store(r, limits, c, transform(limits, m, r.tr, x));
+      break;
+    case 1:
+      store(r, limits, c, transform(limits, m, raw(r.bk), x));
+      break;
+    case 2:
+      store(r, limits, c, transform_far_colour(limits, m, raw(r.fc), x, c.shift()));
+      break;
+    default:
+      store(r, limits, c, transform(limits, m, {}, x));
+      break;
+  }
+  r.flag = limits.finish();
+}
+
+void op(Registers& r, Command c) {
+  Limits limits;
+  const Vector d{r.rt[0][0].raw, r.rt[1][1].raw, r.rt[2][2].raw};
+  const Vector x = ir_vector(r);
+  const auto cross = [&](std::size_t i, std::size_t j) {
+    return std::int64_t{d[i]} * x[j] - std::int64_t{d[j]} * x[i];
+  };
+  store(r, limits, c, {cross(1, 2), cross(2, 0), cross(0, 1)});
+  r.flag = limits.finish();
+}
+
+void sqr(Registers& r, Command c) {
+  Limits limits;
+  for (std::size_t i = 1; i <= 3; ++i) store(r, limits, c, i, std::int64_t{r.ir[i]} * r.ir[i]);
+  r.flag = limits.finish();
+}
+
+void gpf(Registers& r, Command c) {
+  Limits limits;
+  for (std::size_t i = 1; i <= 3; ++i) store(r, limits, c, i, std::int64_t{r.ir[0]} * r.ir[i]);
+  push_colour(r, limits);
+  r.flag = limits.finish();
+}
+
+void gpl(Registers& r, Command c) {
+  Limits limits;
+  for (std::size_t i = 1; i <= 3; ++i) {
+    const std::int64_t base = std::int64_t{r.mac[i]} * (std::int64_t{1} << c.shift());
+    store(r, limits, c, i, limits.mac(static_cast<int>(i), base + std::int64_t{r.ir[0]} * r.ir[i]));
+  }
+  push_colour(r, limits);
+  r.flag = limits.finish();
+}
+
+namespace {
+
+/// What a light or depth cue command does with one vertex between FLAG = 0 and the push.
+using Steps = void (*)(Registers&, Limits&, Command, std::size_t k);
+
+template <Steps steps, std::size_t count = 1>
+void coloured(Registers& r, Command c) {
+  Limits limits;
+  for (std::size_t k = 0; k < count; ++k) {
+    steps(r, limits, c, k);
+    push_colour(r, limits);
+  }
+  r.flag = limits.finish();
+}
+
+void lit(Registers& r, Limits& limits, Command c, std::size_t k) {
+  light(r, limits, c, k);
+  colour(r, limits, c);
+}
+void modulate(Registers& r, Limits& limits, Command c, std::size_t) { store(r, limits, c, modulated(r)); }
+void cue_colour(Registers& r, Limits& limits, Command c, std::size_t) { cue(r, limits, c, modulated(r)); }
+void cue_primitive(Registers& r, Limits& limits, Command c, std::size_t) {
+  cue(r, limits, c, from_bytes(r.rgbc));
+}
+void cue_oldest(Registers& r, Limits& limits, Command c, std::size_t) {
+  cue(r, limits, c, from_bytes(r.rgb[0]));
+}
+void cue_ir(Registers& r, Limits& limits, Command c, std::size_t) {
+  cue(r, limits, c,
+      {std::int64_t{r.ir[1]} * 4096, std::int64_t{r.ir[2]} * 4096, std::int64_t{r.ir[3]} * 4096});
+}
+void lit_modulated(Registers& r, Limits& limits, Command c, std::size_t k) {
+  lit(r, limits, c, k);
+  modulate(r, limits, c, k);
+}
+void lit_cued(Registers& r, Limits& limits, Command c, std::size_t k) {
+  lit(r, limits, c, k);
+  cue_colour(r, limits, c, k);
+}
+void colour_modulated(Registers& r, Limits& limits, Command c, std::size_t k) {
+  colour(r, limits, c);
+  modulate(r, limits, c, k);
+}
+void colour_cued(Registers& r, Limits& limits, Command c, std::size_t k) {
+  colour(r, limits, c);
+  cue_colour(r, limits, c, k);
+}
+
+}  // namespace
+
+void ncs(Registers& r, Command c) { coloured<lit>(r, c); }
+void nct(Registers& r, Command c) { coloured<lit, 3>(r, c); }
+void nccs(Registers& r, Command c) { coloured<lit_modulated>(r, c); }
+void ncct(Registers& r, Command c) { coloured<lit_modulated, 3>(r, c); }
+void ncds(Registers& r, Command c) { coloured<lit_cued>(r, c); }
+void ncdt(Registers& r, Command c) { coloured<lit_cued, 3>(r, c); }
+void cc(Registers& r, Command c) { coloured<colour_modulated>(r, c); }
+void cdp(Registers& r, Command c) { coloured<colour_cued>(r, c); }
+void dcpl(Registers& r, Command c) { coloured<cue_colour>(r, c); }
+void dpcs(Registers& r, Command c) { coloured<cue_primitive>(r, c); }
+void dpct(Registers& r, Command c) { coloured<cue_oldest, 3>(r, c); }
+void intpl(Registers& r, Command c) { coloured<cue_ir>(r, c); }
+
+namespace {
+
+void unlisted(Registers& r, Command) { r.flag = 0; }
+
+constexpr std::array<CommandInfo, 22> commands{{
+    {0x01, "RTPS", 15, rtps},  {0x06, "NCLIP", 8, nclip}, {0x0c, "OP", 6, op},      {0x10, "DPCS", 8, dpcs},
+    {0x11, "INTPL", 8, intpl}, {0x12, "MVMVA", 8, mvmva}, {0x13, "NCDS", 19, ncds}, {0x14, "CDP", 13, cdp},
+    {0x16, "NCDT", 44, ncdt},  {0x1b, "NCCS", 17, nccs},  {0x1c, "CC", 11, cc},     {0x1e, "NCS", 14, ncs},
+    {0x20, "NCT", 30, nct},    {0x28, "SQR", 5, sqr},     {0x29, "DCPL", 8, dcpl},  {0x2a, "DPCT", 17, dpct},
+    {0x2d, "AVSZ3", 5, avsz3}, {0x2e, "AVSZ4", 6, avsz4}, {0x30, "RTPT", 23, rtpt}, {0x3d, "GPF", 5, gpf},
+    {0x3e, "GPL", 5, gpl},     {0x3f, "NCCT", 39, ncct},
+}};
+
+constexpr std::array<CommandInfo, 64> by_opcode() {
+  std::array<CommandInfo, 64> table{};
+  for (unsigned i = 0; i < 64; ++i) table[i] = {i, "", 0, unlisted};
+  for (const CommandInfo& c : commands) table[c.opcode] = c;
+  return table;
+}
+
+}  // namespace
+
+constinit const std::array<CommandInfo, 64> command_table = by_opcode();
+
+void execute(Registers& r, Command c) { command_table[c.opcode()].run(r, c); }
+
+}  // namespace gte
