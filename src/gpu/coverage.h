@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
 namespace gpu {
 
@@ -50,6 +51,21 @@ constexpr std::int32_t edge_at(Point a, Point b, std::int32_t row) {
 /// The columns of one row, left .. right-1; left == right when there are none.
 struct Columns {
   std::int32_t left = 0, right = 0;
+  [[nodiscard]] constexpr bool is_empty() const { return left >= right; }
+  bool operator==(const Columns&) const = default;
+};
+
+/// A part of the screen, one run of columns per row, rows from `top` down; nothing outside them. A polygon
+/// drawn within limits is the whole polygon (edges, gradients) with all other pixels left out: the pieces of
+/// a split polygon are the polygon, pixel for pixel. Coordinates as transmitted, before the drawing offset.
+struct Limits {
+  std::int32_t top = 0;
+  std::span<const Columns> rows;  ///< the caller's
+  [[nodiscard]] constexpr Columns at(std::int32_t row) const {
+    const std::int64_t index = std::int64_t{row} - top;
+    if (index < 0 || index >= static_cast<std::int64_t>(rows.size())) return {};
+    return rows[static_cast<std::size_t>(index)];
+  }
 };
 
 /// `sorted` as sorted_by_row gives it, sorted[0].y <= row < sorted[2].y.

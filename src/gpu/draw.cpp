@@ -54,7 +54,8 @@ void Gpu::polygon(const std::uint32_t* words) {
   take_depth();
   begin_command();
   note(Kind::polygon);
-  draw_polygon({vram_, clut_.entries().data(), trace_, current_draw()}, p, counters_);
+  draw_polygon({vram_, clut_.entries().data(), trace_, current_draw(), limits_ ? &*limits_ : nullptr}, p,
+               counters_);
 }
 
 /// The page halfword of a textured polygon stays in force. [ps1-tests gp0-e1]

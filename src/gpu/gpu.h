@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gpu/counters.h"
+#include "gpu/coverage.h"
 #include "gpu/depth.h"
 #include "gpu/display.h"
 #include "gpu/primitive.h"
@@ -56,6 +57,10 @@ class Gpu {
   [[nodiscard]] const Vram& vram() const { return vram_; }
   [[nodiscard]] const Display& display() const { return display_; }
   [[nodiscard]] const DrawState& state() const { return current_.state; }
+
+  /// Polygons draw inside these limits only; nothing: everywhere. The columns stay the caller's, until the
+  /// next call.
+  void set_limits(std::optional<Limits> limits) { limits_ = limits; }
 
   /// A vertical blank: an interlaced picture goes on with its other field.
   void next_field();
@@ -139,6 +144,7 @@ class Gpu {
   std::uint32_t dma_direction_ = 0;
   std::uint32_t latch_ = 0;
   std::uint32_t next_command_ = 0;
+  std::optional<Limits> limits_;
 
   std::optional<std::uint32_t> default_depth_;
   std::unique_ptr<DepthPlane> depth_;

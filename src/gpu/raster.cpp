@@ -141,7 +141,12 @@ void draw_triangle(const Surface& s, const Primitive& p, std::array<const Vertex
   const auto row = [&](int y) {
     const int store_y = sign_extend_11(static_cast<u32>(y));
     if (store_y < state.top() || store_y > state.bottom() || state.skips(store_y)) return;
-    const Columns columns = covered_columns(sorted, y);
+    Columns columns = covered_columns(sorted, y);
+    if (s.limits != nullptr) {
+      const Columns limit = s.limits->at(y - state.offset_y());
+      columns.left = std::max(columns.left, limit.left + state.offset_x());
+      columns.right = std::min(columns.right, limit.right + state.offset_x());
+    }
     int store_x = sign_extend_11(static_cast<u32>(columns.left));
     for (int x = columns.left; x < columns.right; ++x, ++store_x) {
       if (store_x < state.left() || store_x > state.right()) continue;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "gpu/counters.h"
+#include "gpu/coverage.h"
 #include "gpu/primitive.h"
 #include "gpu/trace.h"
 #include "gpu/vram.h"
@@ -16,7 +17,8 @@ struct Surface {
   const std::uint16_t* clut;  ///< 256 entries; read by textures with a palette
   Trace* trace = nullptr;     ///< notes every written pixel under `draw`
   std::uint32_t draw = 0;
-  std::uint8_t half = 0;  ///< 1 while the second triangle of a quad is drawn
+  const Limits* limits = nullptr;  ///< polygons only; nullptr: none
+  std::uint8_t half = 0;           ///< 1 while the second triangle of a quad is drawn
 };
 
 void draw_polygon(const Surface& surface, const Primitive& primitive, Counters& counters);

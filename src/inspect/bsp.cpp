@@ -60,7 +60,7 @@ class EdgeFinder {
     ends_.clear();
     by_left_.clear();
     for (const std::uint32_t p : live) {
-      const Span span = pieces_[p].rows.at(y);
+      const Columns span = pieces_[p].rows.at(y);
       if (span.is_empty()) continue;
       ends_.push_back(span.left);
       ends_.push_back(span.right);
@@ -74,7 +74,7 @@ class EdgeFinder {
     stack_.clear();
     std::size_t next = 0;
     for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
-      const Span part{ends_[i], ends_[i + 1]};
+      const Columns part{ends_[i], ends_[i + 1]};
       std::erase_if(stack_, [&](std::uint32_t p) { return pieces_[p].rows.at(y).right <= part.left; });
       for (; next < by_left_.size() && pieces_[by_left_[next]].rows.at(y).left == part.left; ++next) {
         stack_.push_back(by_left_[next]);
@@ -84,7 +84,7 @@ class EdgeFinder {
   }
 
   // 1/z is affine along the row: neighbours in the same order at both ends are in that order between them.
-  void interval(Span part, int y) {
+  void interval(Columns part, int y) {
     sort_at(part.left, y);
     note_neighbours();
     if (part.right - part.left == 1 || is_sorted_at(part.right - 1, y)) return;
@@ -228,7 +228,7 @@ class Splitter {
     if (piece.triangle == divider) return Side::behind;
     bool behind = false, in_front = false;
     for (int y = piece.rows.top; y < piece.rows.bottom(); ++y) {
-      const Span span = piece.rows.at(y);
+      const Columns span = piece.rows.at(y);
       if (span.is_empty()) continue;
       for (const int x : {span.left, span.right - 1}) {
         (depths_.is_before(piece.triangle, divider, x, y) ? behind : in_front) = true;
@@ -242,7 +242,7 @@ class Splitter {
   std::pair<Piece, Piece> cut(const Piece& piece, std::uint32_t divider) {
     Piece far{piece.triangle, false, {piece.rows.top, {}}}, near = far;
     for (int y = piece.rows.top; y < piece.rows.bottom(); ++y) {
-      const Span span = piece.rows.at(y);
+      const Columns span = piece.rows.at(y);
       if (span.is_empty()) {
         far.rows.spans.emplace_back();
         near.rows.spans.emplace_back();
@@ -256,7 +256,8 @@ class Splitter {
         const int middle = same + (other - same) / 2;
         (is_behind(middle) == left_is_behind ? same : other) = middle;
       }
-      const Span left{span.left, other}, right = other < span.right ? Span{other, span.right} : Span{};
+      const Columns left{span.left, other},
+          right = other < span.right ? Columns{other, span.right} : Columns{};
       far.rows.spans.push_back(left_is_behind ? left : right);
       near.rows.spans.push_back(left_is_behind ? right : left);
     }

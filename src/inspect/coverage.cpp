@@ -22,13 +22,14 @@ std::int64_t first_pixel(const Corner& from, const Corner& to, int y) {
 
 std::uint64_t Rows::pixels() const {
   std::uint64_t count = 0;
-  for (const Span& span : spans) count += static_cast<std::uint64_t>(std::max(0, span.right - span.left));
+  for (const Columns& span : spans) count += static_cast<std::uint64_t>(std::max(0, span.right - span.left));
   return count;
 }
 
 void trim(Rows& rows) {
   while (!rows.spans.empty() && rows.spans.back().is_empty()) rows.spans.pop_back();
-  const auto first = std::find_if(rows.spans.begin(), rows.spans.end(), [](Span s) { return !s.is_empty(); });
+  const auto first =
+      std::find_if(rows.spans.begin(), rows.spans.end(), [](Columns s) { return !s.is_empty(); });
   rows.top += static_cast<int>(first - rows.spans.begin());
   rows.spans.erase(rows.spans.begin(), first);
 }
@@ -45,8 +46,9 @@ Rows covered_rows(std::array<Corner, 3> corners, const Area& area) {
         y * 256 < middle.y ? first_pixel(upper, middle, y) : first_pixel(middle, lower, y);
     const auto left = std::max<std::int64_t>(std::min(along, across), area.left);
     const auto right = std::min<std::int64_t>(std::max(along, across), area.right + 1);
-    rows.spans.push_back(
-        left < right ? Span{static_cast<std::int32_t>(left), static_cast<std::int32_t>(right)} : Span{});
+    rows.spans.push_back(left < right
+                             ? Columns{static_cast<std::int32_t>(left), static_cast<std::int32_t>(right)}
+                             : Columns{});
   }
   trim(rows);
   return rows;

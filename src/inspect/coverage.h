@@ -8,30 +8,26 @@
 #include <cstdint>
 #include <vector>
 
+#include "gpu/coverage.h"
 #include "inspect/depth_order.h"
 
 namespace inspect {
 
-/// The pixels left .. right-1 of a row.
-struct Span {
-  std::int32_t left = 0, right = 0;
-  [[nodiscard]] bool is_empty() const { return left >= right; }
-  bool operator==(const Span&) const = default;
-};
+using gpu::Columns;  // the pixels left .. right-1 of a row
 
 /// Consecutive rows from `top` down, one span each.
 struct Rows {
   int top = 0;
-  std::vector<Span> spans;
+  std::vector<Columns> spans;
 
   [[nodiscard]] int bottom() const {
     return top + static_cast<int>(spans.size());
   }  ///< one past the last row
-  [[nodiscard]] Span at(int y) const {
-    return y < top || y >= bottom() ? Span{} : spans[static_cast<std::size_t>(y - top)];
+  [[nodiscard]] Columns at(int y) const {
+    return y < top || y >= bottom() ? Columns{} : spans[static_cast<std::size_t>(y - top)];
   }
   [[nodiscard]] bool covers(int x, int y) const {
-    const Span span = at(y);
+    const Columns span = at(y);
     return x >= span.left && x < span.right;
   }
   [[nodiscard]] std::uint64_t pixels() const;

@@ -130,7 +130,7 @@ TEST_SUITE("inspect") {
     const Triangle t{{{512, 0, 1}, {1536, 768, 1}, {0, 1792, 1}}};
     const auto rows = covered_rows(t, {});
     CHECK(rows.top == 1);
-    CHECK(rows.spans == std::vector<inspect::Span>{{2, 4}, {2, 5}, {2, 6}, {1, 5}, {1, 3}, {1, 2}});
+    CHECK(rows.spans == std::vector<inspect::Columns>{{2, 4}, {2, 5}, {2, 6}, {1, 5}, {1, 3}, {1, 2}});
     CHECK(rows.pixels() == 16);
   }
 
@@ -138,7 +138,7 @@ TEST_SUITE("inspect") {
     const Triangle t{{{-1024, -1024, 1}, {8192, -1024, 1}, {-1024, 8192, 1}}};
     const auto rows = covered_rows(t, {2, 3, 5, 4});
     CHECK(rows.top == 3);
-    CHECK(rows.spans == std::vector<inspect::Span>{{2, 6}, {2, 6}});
+    CHECK(rows.spans == std::vector<inspect::Columns>{{2, 6}, {2, 6}});
     CHECK(covered_rows(t, {5, 0, 4, 9}).spans.empty());
   }
 }
