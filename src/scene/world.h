@@ -45,10 +45,11 @@ enum class Blend : std::uint8_t { opaque, average, add, subtract, add_quarter };
 struct Material {
   std::uint32_t texture = none;  ///< index into World::textures
   Blend blend = Blend::opaque;
-  bool lit = false;           ///< colours go through NCDS/NCCS; otherwise they are final
-  bool raw_texture = false;   ///< texel unchanged by colour
-  bool double_sided = false;  ///< both windings are drawn
-  int bias = 0;               ///< added to the bucket number of its faces: decals, floors
+  bool lit = false;            ///< colours go through NCDS/NCCS; otherwise they are final
+  glm::vec3 self_light{0.0F};  ///< lit: light it gives itself, added to the ambient (BK); 0..7 a channel
+  bool raw_texture = false;    ///< texel unchanged by colour
+  bool double_sided = false;   ///< both windings are drawn
+  int bias = 0;                ///< added to the bucket number of its faces: decals, floors
 };
 
 /// A triangle or a quad. Corners run round the face, counter-clockwise seen from its front.

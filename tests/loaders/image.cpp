@@ -1,0 +1,105 @@
+#include "scene/image.h"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+
+#include "files.h"
+
+namespace {
+
+using scene::Rgba8;
+
+bool is_near(const Rgba8& a, const Rgba8& b, int most) {
+  return std::abs(a.r - b.r) <= most && std::abs(a.g - b.g) <= most && std::abs(a.b - b.b) <= most &&
+         a.a == b.a;
+}
+
+// A PNG's signature and header chunk for a size, and nothing behind it.
+std::string png_header(std::uint32_t width, std::uint32_t height) {
+  std::string head = tests::png(1, 1, 0, 0, 0).substr(0, 33);
+  for (int i = 0; i < 4; ++i) {
+    head[static_cast<std::size_t>(16 + i)] = static_cast<char>(width >> (24 - 8 * i));
+    head[static_cast<std::size_t>(20 + i)] = static_cast<char>(height >> (24 - 8 * i));
+  }
+  return head;
+}
+
+TEST_SUITE("loaders") {
+  TEST_CASE("PNG, JPEG, TGA and BMP pictures of odd sizes decode to the colours they were made of") {
+    const Rgba8 colour{200, 100, 50, 255};
+    for (const auto& [bytes, error] :
+         {std::pair{tests::png(13, 7, 200, 100, 50), 0}, std::pair{tests::jpeg(13, 7, 200, 100, 50), 3},
+          std::pair{tests::tga(13, 7, 200, 100, 50), 0}, std::pair{tests::bmp(13, 7, 200, 100, 50), 0}}) {
+      const auto texture = scene::decode_picture(bytes);
+      REQUIRE(texture);
+      CHECK(texture->width == 13);
+      CHECK(texture->height == 7);
+      REQUIRE(texture->pixels.size() == 13 * 7);
+      for (const Rgba8& pixel : texture->pixels) CHECK(is_near(pixel, colour, error));
+    }
+  }
+
+  TEST_CASE("a picture's alpha is kept") {
+    const auto texture = scene::decode_picture(tests::png(2, 2, 1, 2, 3, 77));
+    REQUIRE(texture);
+    CHECK(texture->pixels[3] == Rgba8{1, 2, 3, 77});
+  }
+
+  TEST_CASE("a header that announces 16384 x 16384 is refused before anything is decoded") {
+    const auto texture = scene::decode_picture(png_header(16384, 16384));
+    REQUIRE(!texture);
+    CHECK(texture.error().text.find("8192 x 8192") != std::string::npos);
+  }
+
+  TEST_CASE("pictures of one scene share a limit of texels, judged by the header") {
+    CHECK(scene::decode_picture(tests::png(8, 8, 0, 0, 0), 64));
+    CHECK(!scene::decode_picture(tests::png(8, 8, 0, 0, 0), 63));
+  }
+
+  TEST_CASE("bytes that are no picture, and every truncation of one, give an error and nothing else") {
+    CHECK(!scene::decode_picture(""));
+    CHECK(!scene::decode_picture("not a picture at all, but long enough to be one"));
+    for (const std::string& whole : {tests::png(9, 9, 9, 9, 9), tests::jpeg(9, 9, 9, 9, 9)}) {
+      for (std::size_t size = 0; size < 40; ++size) CHECK(!scene::decode_picture(whole.substr(0, size)));
+      for (std::size_t size = 40; size < whole.size(); ++size) scene::decode_picture(whole.substr(0, size));
+    }
+  }
+
+  TEST_CASE("a small PNG whose data inflate far beyond its size is refused") {
+    // The data of a 2000 x 2000 picture (16 MB of zeros, a few KB packed) under a header that says 1 x 1.
+    std::string bomb = tests::png(2000, 2000, 0, 0, 0, 0);
+    const std::string small = png_header(1, 1);
+    bomb.replace(0, small.size(), small);
+    CHECK(!scene::decode_picture(bomb));
+  }
+
+  TEST_CASE(
+      "a texture is found beside the scene, by back slashes too, and by its last part if its folder is not "
+      "there") {
+    const tests::Folder folder;
+    folder.write("a.png", "x");
+    folder.write("sub/b.png", "x");
+    for (const char* name : {"a.png", "./a.png", ".\\a.png", "sub/../a.png", "C:\\art\\a.png",
+                             "/home/me/a.png", "sub\\b.png", "../elsewhere/a.png"}) {
+      CAPTURE(name);
+      CHECK(scene::resolve(folder.path(), name));
+    }
+  }
+
+  TEST_CASE("nothing outside the folder of the scene is read, not through a symbolic link either") {
+    const tests::Folder outer;
+    outer.write("secret.png", "x");
+    outer.write("scene/a.obj", "x");
+    std::filesystem::create_symlink(outer.path() / "secret.png", outer.path() / "scene/link.png");
+    const auto scene_folder = outer.path() / "scene";
+    for (const std::string& name :
+         {std::string("../secret.png"), (outer.path() / "secret.png").string(), std::string("link.png"),
+          std::string("/dev/zero"), std::string("."), std::string(""), std::string("a\0.png", 6)}) {
+      CAPTURE(name);
+      CHECK(!scene::resolve(scene_folder, name));
+    }
+  }
+}
+
+}  // namespace
