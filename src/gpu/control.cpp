@@ -81,13 +81,14 @@ void Gpu::gp1(std::uint32_t word) {
       texture_disable_allowed_ = (word & 1) != 0;
       break;
     default:
-      if (control >= 0x10 && control < 0x20) latch_register(control & 15);
+      if (control >= 0x10 && control < 0x20) latch_register(word & 15);
       break;
   }
   update_skipped_rows();
 }
 
-/// GP1(10h): a register to be read through GPUREAD; other numbers leave the latch alone.
+/// GP1(10h): a register, by the low 4 bits of the word, to be read through GPUREAD; other numbers leave the
+/// latch alone.
 void Gpu::latch_register(std::uint32_t number) {
   constexpr std::uint32_t gpu_version = 2;
   const DrawState& state = current_.state;
