@@ -140,7 +140,7 @@ struct AntialiasWord {
   int low, high;  // samples; low == high == 1: no number follows
 };
 constexpr std::array antialias_words{
-    AntialiasWord{"none", AntialiasKind::none, 1, 1},
+    AntialiasWord{"none", AntialiasKind::off, 1, 1},
     AntialiasWord{"ssaa-", AntialiasKind::ssaa, 2, 8},
     AntialiasWord{"rotated-", AntialiasKind::rotated, 2, 64},
     AntialiasWord{"random-", AntialiasKind::random, 2, 64},

@@ -30,9 +30,9 @@ enum class Colour : std::uint8_t { bits15, bits15_dither, bits24 };
 enum class AaFilter : std::uint8_t { box, tent, gauss };
 enum class Fog : std::uint8_t { vertex, pixel };
 
-enum class AntialiasKind : std::uint8_t { none, ssaa, rotated, random, msaa, fxaa, taa };
+enum class AntialiasKind : std::uint8_t { off, ssaa, rotated, random, msaa, fxaa, taa };
 struct Antialias {
-  AntialiasKind kind = AntialiasKind::none;
+  AntialiasKind kind = AntialiasKind::off;
   int samples = 1;  ///< ssaa: N of N x N, 2..8; rotated, random: N samples, 2..64; msaa: 2, 4 or 8; else 1
   bool operator==(const Antialias&) const = default;
 };
