@@ -20,6 +20,15 @@ std::uint8_t byte_of(std::span<const std::uint16_t> row, unsigned at) {
 
 }  // namespace
 
+Area area_of(const gpu::Display& display) {
+  return {.x = display.start_x(),
+          .y = display.start_y(),
+          .width = display.width(),
+          .height = display.height(),
+          .is_24_bit = display.is_24_bit(),
+          .is_off = display.is_off};
+}
+
 Picture scan_out(std::span<const std::uint16_t> vram, const Area& area) {
   assert(vram.size() == std::size_t{vram_width} * vram_height);
   assert(area.width >= 0 && area.height >= 0);

@@ -9,6 +9,7 @@
 #include <span>
 
 #include "display/picture.h"
+#include "gpu/display.h"
 
 namespace display {
 
@@ -22,6 +23,9 @@ struct Area {
   bool is_off = false;            ///< the picture is black
   bool operator==(const Area&) const = default;
 };
+
+/// The area that the GPU's display registers select.
+[[nodiscard]] Area area_of(const gpu::Display& display);
 
 /// One VRAM pixel. 5 bits become 8 as v << 3 | v >> 2, so that 0 stays 0 and 31 becomes 255; bit 15 is not
 /// shown.

@@ -1,0 +1,53 @@
+#include "app/machine.h"
+
+#include <utility>
+
+#include "display/scanout.h"
+#include "scene/pipeline.h"
+
+namespace app {
+
+Machine::Machine(scene::Scene scene, const scene::Knobs& knobs)
+    : scene_(std::move(scene)), animate_(scene_.animate), base_(scene_.world.camera) {
+  // The scene's own animation first, then the user's hand on the camera; with an offset of nothing the frame
+  // is exactly the scene's.
+  scene_.animate = [this, still = base_](scene::World& world, double seconds) {
+    world.camera = still;
+    if (animate_) animate_(world, seconds);
+    base_ = world.camera;
+    world.camera = moved(base_, offset_, pivot_distance_);
+  };
+  auto first = scene_.world;
+  scene_.animate(first, 0);
+  first.camera = base_;
+  pivot_distance_ = pivot_distance(first);
+  builder_ = std::make_unique<scene::FrameBuilder>(scene_, knobs);
+  builder_->upload(gpu_);
+}
+
+scene::Scene Machine::scene_as_given() const {
+  auto scene = scene_;
+  scene.animate = animate_;
+  return scene;
+}
+
+scene::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::Knobs& knobs,
+                                               const CameraOffset& camera) {
+  if (auto checked = scene::check_knobs(knobs); !checked) return tl::make_unexpected(checked.error());
+  offset_ = camera;
+  if (builder_->needs_upload(knobs)) {
+    builder_ = std::make_unique<scene::FrameBuilder>(scene_, knobs);
+    builder_->upload(gpu_);
+  }
+  return scene::render_frame(*builder_, static_cast<double>(frame) / 60.0, knobs, ram_, gpu_);
+}
+
+display::Picture Machine::picture() const {
+  return display::scan_out(gpu_.vram().pixels(), display::area_of(gpu_.display()));
+}
+
+void Machine::fly(CameraOffset& camera, glm::vec3 step) const {
+  app::fly(camera, base_, step, pivot_distance_);
+}
+
+}  // namespace app

@@ -1,0 +1,56 @@
+#pragma once
+// A scene and the console that draws it: main RAM, GPU and the builder of its frames. The one place where the
+// program turns "scene, frame number, knobs" into a picture.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/camera.h"
+#include "display/picture.h"
+#include "gpu/gpu.h"
+#include "ot/main_ram.h"
+#include "scene/frame.h"
+#include "scene/knobs.h"
+#include "scene/world.h"
+
+namespace app {
+
+class Machine {
+ public:
+  /// Packs the scene's textures; what does not fit as it is stands in report().
+  Machine(scene::Scene scene, const scene::Knobs& knobs);
+  Machine(const Machine&) = delete;  // the builder refers to the scene
+  Machine& operator=(const Machine&) = delete;
+
+  /// Draws the state at frame / 60 s, seen from the scene's camera moved by `camera`.
+  /// Error: knobs that cannot be met, a frame that does not fit into RAM, a polygon without depth.
+  scene::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
+                                        const CameraOffset& camera = {});
+
+  /// What the display shows after draw().
+  [[nodiscard]] display::Picture picture() const;
+
+  /// Moves `camera` by `step` in the axes of the picture last drawn (see app::fly).
+  void fly(CameraOffset& camera, glm::vec3 step) const;
+
+  /// The scene with its own animation: a second machine may be made from it.
+  [[nodiscard]] scene::Scene scene_as_given() const;
+  [[nodiscard]] const std::vector<std::string>& report() const { return builder_->report(); }
+  [[nodiscard]] const gpu::Gpu& gpu() const { return gpu_; }
+
+ private:
+  scene::Scene scene_;
+  std::function<void(scene::World&, double)> animate_;  // the scene's own
+  CameraOffset offset_;
+  scene::Camera base_;  // the scene's own camera at the frame last drawn
+  float
+      pivot_distance_;  // of the first frame: a pivot that moved with every frame would make the camera swim
+  ot::MainRam ram_{ot::RamSize::mib8};
+  gpu::Gpu gpu_;
+  std::unique_ptr<scene::FrameBuilder> builder_;
+};
+
+}  // namespace app

@@ -1,0 +1,30 @@
+#include "app/progress.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <utility>
+
+namespace app {
+
+Progress::Progress(std::string what, std::size_t steps)
+    : what_(std::move(what)), steps_(steps), is_terminal_(isatty(STDERR_FILENO) == 1) {}
+
+Progress::~Progress() {
+  if (shown_) std::fputs("\r\x1b[K", stderr);
+}
+
+void Progress::step() {
+  ++done_;
+  const auto now = Clock::now();
+  using namespace std::chrono_literals;
+  if (!is_terminal_ || now - begin_ < 2s || now - printed_ < 100ms || done_ >= steps_) return;
+  printed_ = now;
+  shown_ = true;
+  const std::chrono::duration<double> taken = now - begin_;
+  const double left = taken.count() / static_cast<double>(done_) * static_cast<double>(steps_ - done_);
+  std::fprintf(stderr, "\r\x1b[K%s: %zu of %zu, %.0f s left", what_.c_str(), done_, steps_, left);
+  std::fflush(stderr);
+}
+
+}  // namespace app

@@ -1,0 +1,262 @@
+#include "app/window.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "app/describe.h"
+#include "app/imgui_layer.h"
+#include "app/input.h"
+#include "app/knob_panel.h"
+#include "app/layout.h"
+#include "app/overlay.h"
+#include "app/screen.h"
+#include "app/sdl.h"
+#include "app/show.h"
+#include "app/vram_view.h"
+#include "display/png.h"
+#include "display/scanout.h"
+
+namespace app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+  return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+class Window {
+ public:
+  explicit Window(const WindowOptions& options)
+      : options_(options), state_(options.first), show_(options.scenes) {}
+
+  scene::Result<int> run();
+
+ private:
+  scene::Result<void> open();
+  void take_events();
+  void update();
+  void draw();
+  void draw_pictures();
+  void follow_state();
+  void take_screenshot();
+  scene::Result<void> write_window(const std::filesystem::path& path);
+  void wait_for_next();
+  void say(std::string text, bool is_error);
+
+  const WindowOptions& options_;
+  WindowState state_;
+  SdlSession sdl_;
+  Owned<SDL_Window> window_;
+  Owned<SDL_Renderer> renderer_;
+  std::unique_ptr<ImGuiLayer> gui_;
+  Input input_;
+  Show show_;
+  Screen left_, right_, vram_;
+  Rect area_, picture_;  // for pictures; where the picture is
+  float scale_ = 1;      // of letters
+  bool is_fullscreen_ = false, is_minimised_ = false;
+  Pace pace_ = Pace::vsync;
+  std::string title_, message_;
+  bool message_is_error_ = false;
+  double message_until_ = 0;
+  Clock::time_point begin_ = Clock::now(), due_ = begin_;
+  double last_ = 0, frame_seconds_ = 1.0 / 60;
+};
+
+scene::Result<void> Window::open() {
+  const auto failed = [] {
+    return scene::fail(std::string("no window can be opened: ") + SDL_GetError() +
+                       "; `otter render` needs no display");
+  };
+  if (!sdl_.ok) return failed();
+  const auto size = wanted_area(state_.knobs.width, state_.knobs.height, options_.scale);
+  window_.reset(SDL_CreateWindow("Otter", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width,
+                                 size.height + status_height(1), SDL_WINDOW_RESIZABLE));
+  if (!window_) return failed();
+  SDL_SetWindowMinimumSize(window_.get(), 320, 240);
+  renderer_.reset(SDL_CreateRenderer(window_.get(), -1, SDL_RENDERER_PRESENTVSYNC));
+  if (!renderer_) renderer_.reset(SDL_CreateRenderer(window_.get(), -1, SDL_RENDERER_SOFTWARE));
+  if (!renderer_) return failed();
+  gui_ = std::make_unique<ImGuiLayer>(window_.get(), renderer_.get());
+  return {};
+}
+
+void Window::say(std::string text, bool is_error) {
+  message_ = std::move(text);
+  message_is_error_ = is_error;
+  message_until_ = seconds_since(begin_) + 4;
+}
+
+void Window::take_events() {
+  SDL_Event event;
+  while (SDL_PollEvent(&event) != 0) {
+    gui_->take(event);
+    if (event.type == SDL_WINDOWEVENT) {
+      if (event.window.event == SDL_WINDOWEVENT_MINIMIZED) is_minimised_ = true;
+      if (event.window.event == SDL_WINDOWEVENT_RESTORED || event.window.event == SDL_WINDOWEVENT_EXPOSED) {
+        is_minimised_ = false;
+      }
+    }
+    input_.take(event, seconds_since(begin_), picture_, state_);
+  }
+}
+
+// Lets time pass, moves the camera, draws the scene if anything has changed.
+void Window::update() {
+  const double now = seconds_since(begin_);
+  const double passed = now - std::exchange(last_, now);
+  frame_seconds_ += (passed - frame_seconds_) * 0.05;
+  let_pass(state_, passed);
+  input_.move_camera(now, std::min(passed, 0.1), show_.machine(), state_);
+  const auto updated = show_.update(state_);
+  if (!updated) {
+    say(updated.error().text, true);
+    return;
+  }
+  if (*updated) {
+    left_.show(renderer_.get(), show_.left());
+    if (state_.compares()) right_.show(renderer_.get(), show_.right());
+    if (message_is_error_) message_.clear();
+  }
+  if (state_.vram && show_.machine() != nullptr) {
+    vram_.show(renderer_.get(), display::scan_out_all(show_.machine()->gpu().vram().pixels()));
+  }
+}
+
+void Window::follow_state() {
+  if (state_.fullscreen != is_fullscreen_) {
+    is_fullscreen_ = state_.fullscreen;
+    SDL_SetWindowFullscreen(window_.get(), is_fullscreen_ ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
+  }
+  if (state_.pace != pace_) {
+    pace_ = state_.pace;
+    SDL_RenderSetVSync(renderer_.get(), pace_ == Pace::vsync ? 1 : 0);
+    due_ = Clock::now();
+  }
+  auto title = "Otter: " + show_.scene_name();
+  if (title != title_) SDL_SetWindowTitle(window_.get(), title.c_str());
+  title_ = std::move(title);
+
+  int width = 0;
+  int height = 0;
+  SDL_GetRendererOutputSize(renderer_.get(), &width, &height);
+  scale_ = static_cast<float>(std::max(1, std::min(width / 900, height / 700)));
+  area_ = {0, 0, width, std::max(height - status_height(scale_), 1)};
+  if (state_.vram) {
+    picture_ = place_vram(area_);
+  } else {
+    picture_ = left_.is_empty() ? area_ : place(left_.width(), left_.height(), area_);
+  }
+}
+
+void Window::draw_pictures() {
+  if (state_.vram) {
+    vram_.draw(renderer_.get(), picture_);
+  } else if (state_.split) {
+    left_.draw(renderer_.get(), picture_, 0, state_.divider);
+    right_.draw(renderer_.get(), picture_, state_.divider, 1);
+  } else {
+    left_.draw(renderer_.get(), picture_);
+  }
+}
+
+void Window::draw() {
+  SDL_SetRenderDrawColor(renderer_.get(), 0x0b, 0x0b, 0x10, 0xff);
+  SDL_RenderClear(renderer_.get());
+  draw_pictures();
+  gui_->begin(scale_);
+  if (state_.vram && show_.machine() != nullptr) {
+    draw_vram_marks(show_.machine()->gpu(), picture_, scale_);
+  } else {
+    if (state_.split) draw_divider(state_, picture_);
+    draw_captions(state_, picture_, scale_);
+  }
+  if (state_.help) draw_help(state_, area_, scale_);
+  if (state_.panel) draw_knob_panel(state_, show_.scene_name(), area_, scale_);
+  if (seconds_since(begin_) < message_until_ || message_is_error_) {
+    draw_message(message_, message_is_error_, area_, scale_);
+  }
+  const Status status{show_.scene_name(), show_.stats(), 1 / std::max(frame_seconds_, 1e-4),
+                      show_.different()};
+  draw_status(state_, status, {0, area_.height, area_.width, status_height(scale_)}, scale_);
+  gui_->end();
+}
+
+scene::Result<void> Window::write_window(const std::filesystem::path& path) {
+  int width = 0;
+  int height = 0;
+  SDL_GetRendererOutputSize(renderer_.get(), &width, &height);
+  display::Picture picture(width, height);
+  if (SDL_RenderReadPixels(renderer_.get(), nullptr, SDL_PIXELFORMAT_RGBA32, picture.pixels.data(),
+                           width * 4) != 0) {
+    return scene::fail(path.string() + ": the window cannot be read back: " + SDL_GetError(),
+                       scene::Exit::failed);
+  }
+  return display::write_png(path, picture);
+}
+
+// Into the current folder, under a name that is not taken yet.
+void Window::take_screenshot() {
+  const auto stem = "otter-" + std::filesystem::path(show_.scene_name()).stem().string() + "-" +
+                    std::to_string(state_.frame);
+  std::filesystem::path path = stem + ".png";
+  std::error_code ignored;
+  for (int n = 2; std::filesystem::exists(path, ignored); ++n) path = stem + "-" + std::to_string(n) + ".png";
+  const auto written = write_window(path);
+  if (!written) return say(written.error().text, true);
+  say("saved " + std::filesystem::absolute(path, ignored).string(), false);
+}
+
+// A fixed pace sleeps until its next frame is due. With vsync SDL has waited already, unless the driver does
+// not: then 250 frames a second are enough.
+void Window::wait_for_next() {
+  using std::chrono::duration;
+  const double period = pace_ == Pace::hz60 ? 1.0 / 60 : pace_ == Pace::hz50 ? 1.0 / 50 : 1.0 / 250;
+  due_ += std::chrono::duration_cast<Clock::duration>(duration<double>(period));
+  const double early = -seconds_since(due_);
+  if (early > 0) SDL_Delay(static_cast<Uint32>(early * 1000));
+  if (early < -0.1 || pace_ == Pace::vsync) due_ = Clock::now();  // late: do not hurry after it
+}
+
+scene::Result<int> Window::run() {
+  if (auto opened = open(); !opened) return tl::make_unexpected(opened.error());
+  if (auto first = show_.update(state_); !first) return tl::make_unexpected(first.error());
+  left_.show(renderer_.get(), show_.left());
+  if (state_.compares()) right_.show(renderer_.get(), show_.right());
+  last_ = seconds_since(begin_);
+  due_ = Clock::now();
+  for (int drawn = 0; !state_.quit; ++drawn) {
+    take_events();
+    if (is_minimised_) {
+      SDL_WaitEventTimeout(nullptr, 100);
+      last_ = seconds_since(begin_);
+      if (!options_.frames) continue;
+    }
+    update();
+    follow_state();
+    draw();
+    const bool is_last = options_.frames && drawn + 1 >= *options_.frames;
+    if (is_last && !options_.screenshot.empty()) {
+      if (auto written = write_window(options_.screenshot); !written)
+        return tl::make_unexpected(written.error());
+    }
+    if (std::exchange(state_.screenshot, false)) take_screenshot();
+    SDL_RenderPresent(renderer_.get());
+    if (is_last) break;
+    wait_for_next();
+  }
+  return 0;
+}
+
+}  // namespace
+
+scene::Result<int> run_window(const WindowOptions& options) { return Window(options).run(); }
+
+}  // namespace app
