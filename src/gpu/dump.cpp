@@ -182,7 +182,7 @@ FrameEnd sum(FrameEnd a, const FrameEnd& b) {
 }  // namespace
 
 void Dump::add(PacketType type, std::span<const std::uint32_t> payload) {
-  const bool is_port = type == PacketType::port0 || type == PacketType::port1;
+  [[maybe_unused]] const bool is_port = type == PacketType::port0 || type == PacketType::port1;
   assert(is_port || payload.size() <= header::Length::max);
   do {
     const auto part = payload.first(std::min<std::size_t>(payload.size(), header::Length::max));
