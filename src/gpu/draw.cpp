@@ -54,6 +54,7 @@ void Gpu::polygon(const std::uint32_t* words) {
   take_depth();
   begin_command();
   note(Kind::polygon);
+  if (canvas_ != nullptr && draw_on_canvas()) return;
   draw_polygon({vram_, clut_.entries().data(), trace_, current_draw(), limits_ ? &*limits_ : nullptr}, p,
                counters_);
 }
@@ -88,6 +89,7 @@ void Gpu::rectangle(const std::uint32_t* words) {
   p.height = size != 0 ? sizes[size] : static_cast<int>(gp0::rectangle::Height::get(*at));
   begin_command();
   note(Kind::rectangle);
+  if (canvas_ != nullptr && draw_on_canvas()) return;
   draw_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
 }
 
@@ -136,6 +138,7 @@ const std::uint32_t* Gpu::continue_polyline(const std::uint32_t* at, const std::
 
 void Gpu::line_segment() {
   note(Kind::line);
+  if (canvas_ != nullptr && draw_on_canvas()) return;
   draw_line({vram_, clut_.entries().data(), trace_, current_draw()}, current_, counters_);
 }
 
@@ -152,6 +155,7 @@ void Gpu::fill(const std::uint32_t* words) {
   begin_command();
   note(Kind::fill);
   fill_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+  if (canvas_ != nullptr) transfer_to_canvas();
 }
 
 void Gpu::copy(const std::uint32_t* words) {
@@ -166,6 +170,7 @@ void Gpu::copy(const std::uint32_t* words) {
   begin_command();
   note(Kind::copy);
   copy_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+  if (canvas_ != nullptr) transfer_to_canvas();
 }
 
 void Gpu::begin_upload(const std::uint32_t* words) {
@@ -204,6 +209,7 @@ const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* e
       upload_.advance();
     }
   }
+  if (canvas_ != nullptr && !upload_.is_active()) transfer_to_canvas();
   return at;
 }
 

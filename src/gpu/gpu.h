@@ -25,6 +25,10 @@
 
 namespace gpu {
 
+namespace canvas {
+class Canvas;
+}
+
 /// What a z-buffered frame could not do.
 struct FrameEnd {
   std::uint32_t polygons_without_depth = 0;  ///< drawn in list order, neither tested nor stored
@@ -84,6 +88,10 @@ class Gpu {
 
   /// nullptr: nobody watches and nothing is paid.
   void set_trace(Trace* trace) { trace_ = trace; }
+  /// Primitives whose drawing area touches the canvas are drawn there instead of in VRAM; fills, copies and
+  /// uploads act on both. nullptr: the console's own target. Borrowed; the caller frames it (begin_frame,
+  /// end_frame).
+  void set_canvas(canvas::Canvas* canvas) { canvas_ = canvas; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
   void reset_counters() { counters_ = {}; }
   /// Bytes held besides VRAM, by purpose: depth plane, queue.
@@ -122,6 +130,9 @@ class Gpu {
   void begin_command();
   void note(Kind kind);
   [[nodiscard]] std::uint32_t current_draw() const;
+  // canvas/port.cpp
+  [[nodiscard]] bool draw_on_canvas();
+  void transfer_to_canvas();
 
   // control.cpp
   void latch_register(std::uint32_t number);
@@ -150,6 +161,7 @@ class Gpu {
   std::unique_ptr<DepthPlane> depth_;
   FrameEnd frame_;
   Trace* trace_ = nullptr;
+  canvas::Canvas* canvas_ = nullptr;
   Counters counters_;
 };
 

@@ -1,0 +1,382 @@
+#include "gpu/canvas/canvas.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <utility>
+
+#include "gpu/canvas/stages.h"
+#include "gpu/coverage.h"
+
+namespace gpu::canvas {
+namespace {
+
+std::size_t area(const Options& o) {
+  return static_cast<std::size_t>(o.width) * static_cast<std::size_t>(o.height) *
+         static_cast<std::size_t>(o.scale) * static_cast<std::size_t>(o.scale);
+}
+
+std::size_t samples_per_pixel(const Options& o) { return std::max<std::size_t>(1, o.samples.size()); }
+
+FogRamp ramp(const Fog& fog) {
+  const double range = fog.far_z - fog.near_z;
+  return {{fog.r, fog.g, fog.b}, fog.far_z / range, -fog.far_z * fog.near_z / range};
+}
+
+/// Texels that a triangle's corners span, and the mip level whose texels are as large.
+TexelBox texel_box(const Primitive& p) {
+  TexelBox box{255, 0, 255, 0, 0};
+  for (std::size_t i = 0; i < p.vertex_count; ++i) {
+    const Vertex& v = p.vertices[i];
+    box = {std::min<int>(box.u_min, v.u), std::max<int>(box.u_max, v.u), std::min<int>(box.v_min, v.v),
+           std::max<int>(box.v_max, v.v), 0};
+  }
+  const auto span = static_cast<unsigned>(std::max(box.u_max - box.u_min, box.v_max - box.v_min));
+  box.coarsest_level = std::max(0, static_cast<int>(std::bit_width(span)) - 1);
+  return box;
+}
+
+}  // namespace
+
+std::uint64_t Canvas::frame_bytes(const Options& o) {
+  const std::uint64_t words = samples_per_pixel(o) * o.layers.size() * (o.depth ? 2 : 1) + (o.ids ? 1 : 0);
+  return area(o) * words * sizeof(Pixel);
+}
+
+Canvas::Canvas(Options options)
+    : options_(std::move(options)),
+      grid_{0, 0, options_.scale, options_.fraction_bits},
+      sample_points_(options_.samples) {
+  const Options& o = options_;
+  assert(o.width > 0 && o.width <= 1024 && o.height > 0 && o.height <= 512);
+  assert(o.scale >= 1 && o.scale <= 8 && std::has_single_bit(static_cast<unsigned>(o.scale)));
+  assert(!o.layers.empty() && o.samples.size() <= 8 && (o.samples.empty() || o.layers.size() == 1));
+  layers_.resize(o.layers.size());
+  for (Layer& layer : layers_) {
+    layer.colour.resize(area(o) * samples_per_pixel(o));
+    if (o.depth) layer.depth.resize(layer.colour.size());
+  }
+  if (o.ids) ids_.resize(area(o));
+  if (o.depth) depth_code_ = DepthCode(*o.depth);
+  if (o.fog) fog_ = ramp(*o.fog);
+}
+
+void Canvas::begin_frame(int x, int y) {
+  grid_.x = x;
+  grid_.y = y;
+  for (Layer& layer : layers_) std::ranges::fill(layer.depth, DepthCode::empty);
+  std::ranges::fill(ids_, 0);
+  queue_.clear();
+  without_depth_ = {};
+}
+
+WithoutDepth Canvas::end_frame() {
+  draw_queue();
+  return without_depth_;
+}
+
+void Canvas::set_jitter(Point offset) {
+  assert(options_.layers.size() == 1);
+  options_.layers[0] = offset;
+}
+
+bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id) {
+  const Clip inside = clip(p.state);
+  if (inside.columns.is_empty() || inside.rows.is_empty()) return false;
+  const Paint how = paint(p, vram, clut, id);
+  switch (p.kind) {
+    case Kind::polygon:
+      if (options_.depth && p.has_depth && p.is_semi_transparent()) {
+        std::uint32_t farthest = 0;
+        for (std::size_t i = 0; i < p.vertex_count; ++i) farthest = std::max(farthest, p.vertices[i].z);
+        queue_.push_back({p, {}, &vram, id, farthest});
+        if (p.is_textured()) std::copy_n(clut, 256, queue_.back().clut.begin());
+        if (!p.is_textured()) return true;  // nothing of it is opaque
+      } else if (options_.depth && !p.has_depth && without_depth_.polygons++ == 0) {
+        without_depth_.first = p.command_number;
+      }
+      polygon(p, how, inside);
+      return true;
+    case Kind::rectangle:
+      rectangle(p, how, inside);
+      return true;
+    case Kind::line:
+      line(p, how, inside);
+      return true;
+    default:
+      return false;
+  }
+}
+
+void Canvas::draw_queue() {
+  std::ranges::stable_sort(queue_, std::ranges::greater{}, &Queued::farthest_z);
+  for (const Queued& q : std::exchange(queue_, {})) {
+    Paint how = paint(q.primitive, *q.vram, q.clut.data(), q.id);
+    how.pass = Pass::semi_transparent;
+    polygon(q.primitive, how, clip(q.primitive.state));
+  }
+}
+
+Target Canvas::target(std::size_t index) {
+  Layer& layer = layers_[index];
+  const Point& offset = options_.layers[index];
+  Target t{layer.colour.data(),
+           layer.depth.empty() ? nullptr : layer.depth.data(),
+           ids_.empty() || index != 0 ? nullptr : ids_.data(),
+           width(),
+           height(),
+           offset,
+           {}};
+  t.samples =
+      sample_points_.empty() ? std::span<const Point>(&offset, 1) : std::span<const Point>(sample_points_);
+  return t;
+}
+
+Canvas::Clip Canvas::clip(const DrawState& state) const {
+  const auto side = [this](int first, int last, int origin, int size) {
+    const Range inside = intersect({first - origin, last + 1 - origin}, {0, size});
+    return Range{inside.begin * options_.scale, inside.end * options_.scale};
+  };
+  return {side(state.left(), state.right(), grid_.x, options_.width),
+          side(state.top(), state.bottom(), grid_.y, options_.height)};
+}
+
+Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id) {
+  const DrawState& state = p.state;
+  const bool is_polygon = p.kind == Kind::polygon;
+  const bool deep = is_polygon && p.has_depth;
+  Paint paint;
+  paint.mode.depth = deep && options_.depth.has_value();
+  paint.mode.ids = options_.ids;
+  if (p.is_semi_transparent()) paint.mode.blend = static_cast<Blending>(1 + static_cast<int>(state.blend()));
+  paint.raw = p.is_raw();
+  paint.gouraud = is_polygon && p.is_gouraud();
+  paint.perspective = deep && options_.perspective && (p.is_textured() || p.is_gouraud());
+  paint.dither = options_.colour == Colour::bits15 && state.dithers() &&
+                 (p.kind == Kind::line || (is_polygon && !p.is_raw() && (p.is_gouraud() || p.is_textured())));
+  paint.mask_test = state.mask_test() != 0;
+  paint.mask_set = state.mask_set() != 0 ? mask_bit : 0;
+  paint.quantise = options_.colour == Colour::bits15 ? 0xf8f8f8 : 0xffffff;
+  paint.pass = paint.mode.depth ? Pass::opaque : Pass::all;
+  paint.depth_code = paint.mode.depth ? &depth_code_ : nullptr;
+  paint.fog = deep && options_.fog ? &fog_ : nullptr;
+  paint.phase_x = grid_.x * options_.scale;
+  paint.phase_y = grid_.y * options_.scale;
+  paint.id = id;
+  if (!p.is_textured()) return paint;
+  paint.mode.texture = static_cast<Texturing>(1 + static_cast<int>(state.texel_format()));
+  paint.texture = {&vram,
+                   clut,
+                   state.page_x(),
+                   state.page_y(),
+                   state.window_keep_u(),
+                   state.window_keep_v(),
+                   state.window_set_u(),
+                   state.window_set_v(),
+                   options_.colour == Colour::bits24};
+  if (!is_polygon) return paint;
+  paint.filter = options_.filter;
+  paint.box = texel_box(p);
+  if (paint.filter >= Filter::mipmap) {
+    paint.mips = &mips_.chain(paint.texture, state, p.clut);
+    // S layers are S finer pixels to the area of one: half a level for each doubling.
+    paint.level_bias = -half_log2(static_cast<float>(options_.layers.size()));
+  }
+  return paint;
+}
+
+void Canvas::polygon(const Primitive& p, Paint paint, const Clip& clip) {
+  const auto& v = p.vertices;
+  triangle(p, {&v[0], &v[1], &v[2]}, paint, clip);
+  // A flat quad has the colour of its first vertex on both halves.
+  if (p.is_quad()) {
+    Vertex first = v[1];
+    if (!p.is_gouraud()) {
+      first.r = v[0].r;
+      first.g = v[0].g;
+      first.b = v[0].b;
+    }
+    triangle(p, {&first, &v[2], &v[3]}, paint, clip);
+  }
+}
+
+void Canvas::triangle(const Primitive& p, const Triangle& t, const Paint& paint, const Clip& clip) {
+  if (is_too_large({{{t[0]->x, t[0]->y}, {t[1]->x, t[1]->y}, {t[2]->x, t[2]->y}}})) return;
+  const std::array<Point, 3> corners{grid_.place(*t[0], p.has_fractions), grid_.place(*t[1], p.has_fractions),
+                                     grid_.place(*t[2], p.has_fractions)};
+  if (doubled_area(corners[0], corners[1], corners[2]) == 0) return;
+  const bool with_inverse_z = paint.mode.depth || paint.perspective || paint.fog != nullptr;
+  const Planes planes = make_planes(grid_, t, corners, paint, with_inverse_z);
+  ++counters_.primitives;
+  if (options_.samples.empty()) {
+    rasterise(corners, planes, paint, clip);
+  } else {
+    rasterise_samples(corners, planes, paint, clip);
+  }
+}
+
+namespace {
+
+/// f(x, count) for pieces of `columns` no longer than a run.
+template <class F>
+void for_each_run(Range columns, F&& f) {
+  for (int x = columns.begin; x < columns.end; x += run_length) f(x, std::min(run_length, columns.end - x));
+}
+
+Mode mode_for(const Target& target, Mode mode) {
+  mode.ids = target.ids != nullptr;
+  return mode;
+}
+
+}  // namespace
+
+void Canvas::rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
+                       const Clip& clip) {
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    const Target to = target(i);
+    Paint how = paint;
+    how.mode = mode_for(to, paint.mode);
+    Coverage coverage(corners, to.offset, clip.rows);
+    for (int y = coverage.rows().begin; y < coverage.rows().end; ++y) {
+      for_each_run(intersect(coverage.next(), clip.columns), [&](int x, int count) {
+        draw_run(to, how, planes, {x, y, count}, counters_);
+      });
+    }
+  }
+}
+
+void Canvas::rasterise_samples(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
+                               const Clip& clip) {
+  const Target to = target(0);
+  const auto count = to.samples.size();
+  std::array<Coverage, 8> at_sample;
+  Coverage at_centre(corners, to.offset, clip.rows);
+  Range rows = at_centre.rows();
+  for (std::size_t s = 0; s < count; ++s) {
+    at_sample[s] = Coverage(corners, to.samples[s], clip.rows);
+    rows = unite(rows, at_sample[s].rows());
+  }
+  const auto take = [](Coverage& coverage, int y) {
+    const Range r = coverage.rows();
+    return y >= r.begin && y < r.end ? coverage.next() : Range{};
+  };
+  for (int y = rows.begin; y < rows.end; ++y) {
+    const Range centre = take(at_centre, y);
+    std::array<Range, 8> covered;
+    Range any;
+    Range all = centre;
+    for (std::size_t s = 0; s < count; ++s) {
+      covered[s] = take(at_sample[s], y);
+      any = unite(any, covered[s]);
+      all = intersect(all, covered[s]);
+    }
+    any = intersect(any, clip.columns);
+    all = intersect(all, any);
+    if (all.is_empty()) all = {any.end, any.end};
+    for_each_run(all, [&](int x, int n) { draw_run(to, paint, planes, {x, y, n}, counters_); });
+    // Where some samples are out, attributes are taken at the pixel's centre if it is covered, else at the
+    // first covered sample: never outside the triangle, where they would run over.
+    const auto draw_edge = [&](int x, int n) {
+      std::array<std::uint8_t, run_length> bits{};
+      std::array<Point, run_length> shaded_at;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(n); ++i) {
+        const int px = x + static_cast<int>(i);
+        for (std::size_t s = 0; s < count; ++s) {
+          const bool in = px >= covered[s].begin && px < covered[s].end;
+          bits[i] = static_cast<std::uint8_t>(bits[i] | (in ? 1U << s : 0U));
+        }
+        const bool centre_in = px >= centre.begin && px < centre.end;
+        const auto first = static_cast<std::size_t>(std::countr_zero(bits[i])) % 8;
+        shaded_at[i] = centre_in || bits[i] == 0 ? to.offset : to.samples[first];
+      }
+      draw_run(to, paint, planes, {x, y, n, bits.data(), shaded_at.data()}, counters_);
+    };
+    for_each_run({any.begin, all.begin}, draw_edge);
+    for_each_run({all.end, any.end}, draw_edge);
+  }
+}
+
+void Canvas::draw_block(const Paint& paint, const Planes& planes, Range columns, Range rows,
+                        const Clip& clip) {
+  const auto scaled = [this](Range r, int origin) {
+    return Range{(r.begin - origin) * options_.scale, (r.end - origin) * options_.scale};
+  };
+  const Range x_range = intersect(scaled(columns, grid_.x), clip.columns);
+  const Range y_range = intersect(scaled(rows, grid_.y), clip.rows);
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    Target to = target(i);
+    to.offset = {};  // whole pixels: no layer sees them from aside
+    Paint how = paint;
+    how.mode = mode_for(to, paint.mode);
+    for (int y = y_range.begin; y < y_range.end; ++y) {
+      for_each_run(x_range, [&](int x, int n) { draw_run(to, how, planes, {x, y, n}, counters_); });
+    }
+  }
+}
+
+/// Reference 7.
+void Canvas::rectangle(const Primitive& p, const Paint& paint, const Clip& clip) {
+  const DrawState& state = p.state;
+  const Vertex& corner = p.vertices[0];
+  const int u = state.flips_x() ? corner.u | 1 : corner.u;
+  const Planes planes = make_flat_planes(grid_, corner, grid_.place(corner, false), u,
+                                         state.flips_x() ? -1 : 1, state.flips_y() ? -1 : 1);
+  ++counters_.primitives;
+  draw_block(paint, planes, {corner.x, corner.x + p.width}, {corner.y, corner.y + p.height}, clip);
+}
+
+/// Reference 8.
+void Canvas::line(const Primitive& p, const Paint& paint, const Clip& clip) {
+  const Vertex* a = &p.vertices[0];
+  const Vertex* b = &p.vertices[1];
+  if (std::abs(b->x - a->x) > 1023 || std::abs(b->y - a->y) > 511) return;
+  const int steps = std::max(std::abs(b->x - a->x), std::abs(b->y - a->y));
+  if (steps > 0 && a->x >= b->x) std::swap(a, b);
+  constexpr std::int64_t one = std::int64_t{1} << 32;
+  const auto slope = [steps](std::int64_t d) {
+    return steps == 0 ? 0 : (d * one + (d < 0 ? 1 - steps : d > 0 ? steps - 1 : 0)) / steps;
+  };
+  const std::int64_t dx = slope(b->x - a->x);
+  const std::int64_t dy = slope(b->y - a->y);
+  std::int64_t x = a->x * one + one / 2 - 1024;
+  std::int64_t y = a->y * one + one / 2 - (dy < 0 ? 1024 : 0);
+  ++counters_.primitives;
+  const auto shade = [steps](int from, int to, int i) {
+    return static_cast<std::uint8_t>(
+        (from * 4096 + 2048 + (steps == 0 ? 0 : (to - from) * 4096 / steps) * i) >> 12);
+  };
+  for (int i = 0; i <= steps; ++i, x += dx, y += dy) {
+    Vertex dot = p.vertices[0];
+    if (p.is_gouraud()) {
+      dot.r = shade(a->r, b->r, i);
+      dot.g = shade(a->g, b->g, i);
+      dot.b = shade(a->b, b->b, i);
+    }
+    const int px = static_cast<int>(x >> 32);
+    const int py = static_cast<int>(y >> 32);
+    draw_block(paint, make_flat_planes(grid_, dot, {}, 0, 1, 1), {px, px + 1}, {py, py + 1}, clip);
+  }
+}
+
+std::vector<Buffer> Canvas::buffers() const {
+  std::vector<Buffer> list;
+  const auto add = [&list](std::string_view name, std::uint64_t bytes) {
+    if (bytes != 0) list.push_back({name, bytes});
+  };
+  std::uint64_t colour = 0;
+  std::uint64_t depth = 0;
+  for (const Layer& layer : layers_) {
+    colour += layer.colour.size() * sizeof(Pixel);
+    depth += layer.depth.size() * sizeof(std::uint32_t);
+  }
+  const std::uint64_t per_sample = colour / (layers_.size() * samples());
+  add("canvas colour", per_sample);
+  add("canvas samples", colour - per_sample);
+  add("canvas depth", depth);
+  add("canvas ids", ids_.size() * sizeof(std::uint32_t));
+  add("canvas queue", queue_.capacity() * sizeof(Queued));
+  add("mip levels", mips_.bytes());
+  return list;
+}
+
+}  // namespace gpu::canvas

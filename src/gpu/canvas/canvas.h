@@ -1,0 +1,124 @@
+#pragma once
+// The accurate target beside VRAM: takes the primitives that a Gpu decodes and draws them with sub-pixel
+// positions, samples, depth, perspective, texel filters and 24-bit colour, as far as its Options ask. What no
+// option asks for is neither computed nor allocated.
+//
+// With default options a Canvas is the console's frame buffer to the bit: the edge rule, gradients,
+// modulation, dither, blending and mask are the console's formulas carried over to finer positions.
+//
+// Rules of its own. Lines and rectangles are whole console pixels at every resolution. Textures are read from
+// VRAM, never from the canvas. Not modelled: the wrap of coordinates outside -1024..1023, the interlace skip,
+// and polygons that read the pixels they draw.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gpu/canvas/depth_code.h"
+#include "gpu/canvas/kernels.h"
+#include "gpu/canvas/mip.h"
+#include "gpu/canvas/options.h"
+#include "gpu/canvas/setup.h"
+#include "gpu/primitive.h"
+#include "gpu/vram.h"
+
+namespace gpu::canvas {
+
+struct Buffer {
+  std::string_view name;
+  std::uint64_t bytes;
+};
+
+/// What a z-buffered frame could not do.
+struct WithoutDepth {
+  std::uint32_t polygons = 0;  ///< drawn in list order, neither tested nor stored
+  std::uint32_t first = 0;     ///< command number of the first, if there is any
+};
+
+class Canvas {
+ public:
+  /// All black. Needs: the limits named in options.h.
+  explicit Canvas(Options options);
+
+  [[nodiscard]] const Options& options() const { return options_; }
+
+  /// Places the canvas over VRAM pixels (x, y)..(x + width - 1, y + height - 1), empties depth, ids, queue.
+  /// Keeps the picture, as a frame buffer does.
+  void begin_frame(int x, int y);
+  /// Draws the queued semi-transparent polygons, far to near.
+  WithoutDepth end_frame();
+
+  /// Temporal accumulation: where layer 0 samples its pixels from now on.
+  void set_jitter(Point offset);
+
+  /// Draws a polygon, rectangle or line segment if its drawing area touches the canvas. False: it does not,
+  /// the primitive is VRAM's. `clut`: 256 entries, read during the call. `id` is stored as the pixels'
+  /// writer.
+  bool draw(const Primitive& primitive, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
+  /// VRAM was changed by a fill, copy or upload: does the same to the canvas where it was the target, and
+  /// forgets mip levels. Call after VRAM is changed.
+  void transfer(const Primitive& primitive, const Vram& vram);
+
+  /// Frame buffer `layer`: samples of pixel (x, y) from (y * width + x) * samples on.
+  [[nodiscard]] std::span<const Pixel> layer(std::size_t index) const { return layers_[index].colour; }
+  [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
+  [[nodiscard]] int width() const { return options_.width * options_.scale; }    ///< canvas pixels
+  [[nodiscard]] int height() const { return options_.height * options_.scale; }  ///< canvas pixels
+  [[nodiscard]] std::size_t samples() const { return options_.samples.empty() ? 1 : options_.samples.size(); }
+
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+  void reset_counters() { counters_ = {}; }
+  /// What is allocated, by purpose; empty buffers are left out.
+  [[nodiscard]] std::vector<Buffer> buffers() const;
+  /// What a canvas of these options will allocate for its frame, before it does.
+  [[nodiscard]] static std::uint64_t frame_bytes(const Options& options);
+
+ private:
+  struct Layer {
+    std::vector<Pixel> colour;
+    std::vector<std::uint32_t> depth;
+  };
+  struct Queued {
+    Primitive primitive;
+    std::array<std::uint16_t, 256> clut;
+    const Vram* vram;
+    std::uint32_t id, farthest_z;
+  };
+  struct Clip {
+    Range columns, rows;
+  };
+
+  [[nodiscard]] Target target(std::size_t layer);
+  [[nodiscard]] Clip clip(const DrawState& state) const;
+  Paint paint(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
+  void polygon(const Primitive& p, Paint paint, const Clip& clip);
+  void triangle(const Primitive& p, const Triangle& triangle, const Paint& paint, const Clip& clip);
+  void rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
+                 const Clip& clip);
+  void rasterise_samples(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
+                         const Clip& clip);
+  void rectangle(const Primitive& p, const Paint& paint, const Clip& clip);
+  void line(const Primitive& p, const Paint& paint, const Clip& clip);
+  void draw_block(const Paint& paint, const Planes& planes, Range columns, Range rows, const Clip& clip);
+  void draw_queue();
+  void fill(const Primitive& p);
+  void copy_within(const Primitive& p);
+  void take_from(const Primitive& p, const Vram& vram);
+
+  Options options_;
+  Grid grid_;
+  std::vector<Point> sample_points_;
+  std::vector<Layer> layers_;
+  std::vector<std::uint32_t> ids_;
+  std::vector<Queued> queue_;
+  DepthCode depth_code_;
+  FogRamp fog_;
+  MipCache mips_;
+  WithoutDepth without_depth_;
+  Counters counters_;
+};
+
+}  // namespace gpu::canvas

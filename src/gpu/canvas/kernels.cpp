@@ -1,0 +1,141 @@
+#include "gpu/canvas/kernels.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gpu/canvas/stages.h"
+
+namespace gpu::canvas {
+namespace {
+
+/// Colours of the vertices, interpolated; flat and raw ones are constant.
+void interpolate_colour(const Paint& paint, const Planes& planes, const Positions& positions,
+                        const std::array<double, run_length>& z, int count, Fragments& f) {
+  const std::array<std::array<std::int32_t, run_length>*, 3> channels{&f.r, &f.g, &f.b};
+  for (std::size_t c = 0; c < 3; ++c) {
+    auto& values = *channels[c];
+    if (paint.raw || !paint.gouraud) {
+      constexpr std::int32_t unchanged = 128;  // modulation by 80h gives the texel back
+      const auto flat = static_cast<std::int32_t>(planes.integer[c].core >> planes.shift & 255);
+      std::fill_n(values.begin(), count, paint.raw ? unchanged : flat);
+      continue;
+    }
+    if (paint.perspective) {
+      interpolate(planes.over_z[c], z, positions, count, 0, 255 * 256, values);
+    } else {
+      interpolate(planes.integer[c], planes.shift, positions, count, values);
+    }
+    round_to_byte(values, count);
+  }
+}
+
+void interpolate_texture(const Paint& paint, const Planes& planes, const Positions& positions,
+                         const std::array<double, run_length>& z, int count, Fragments& f) {
+  const auto& box = paint.box;
+  if (paint.perspective) {
+    interpolate(planes.over_z[3], z, positions, count, box.u_min * 256, box.u_max * 256, f.u);
+    interpolate(planes.over_z[4], z, positions, count, box.v_min * 256, box.v_max * 256, f.v);
+  } else {
+    interpolate(planes.integer[3], planes.shift, positions, count, f.u);
+    interpolate(planes.integer[4], planes.shift, positions, count, f.v);
+  }
+  if (paint.filter >= Filter::mipmap) choose_levels(paint, planes, positions, z, count, f);
+}
+
+/// z (in units of 4096ths, as the plane has it) at every pixel; a z that is not positive reads as far away.
+void interpolate_z(const Planes& planes, const Positions& positions, int count,
+                   std::array<double, run_length>& z) {
+  for (int i = 0; i < count; ++i) {
+    const Point p = positions.at(i);
+    const double inverse = planes.inverse_z.at(p.x, p.y);
+    z[static_cast<std::size_t>(i)] = inverse > 1e-12 ? 1 / inverse : 1e12;
+  }
+}
+
+void fog_factors(const FogRamp& ramp, const Planes& planes, const Positions& positions, int count,
+                 std::array<std::int32_t, run_length>& fog) {
+  for (int i = 0; i < count; ++i) {
+    const Point p = positions.at(i);
+    const double f = ramp.constant + ramp.slope * planes.inverse_z.at(p.x, p.y);
+    fog[static_cast<std::size_t>(i)] = static_cast<std::int32_t>((f > 0 ? (f < 1 ? f : 1) : 0) * 4096 + 0.5);
+  }
+}
+
+/// Blends, stores colour, mask bit, depth and id of every living sample.
+template <Mode M>
+void write(const Target& target, const Paint& paint, const Run& run, const Fragments& f, Counters& counters) {
+  const auto samples = target.samples.size();
+  const auto row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(target.width) +
+                   static_cast<std::size_t>(run.x);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
+    if (f.alive[i] == 0) continue;
+    constexpr bool textured = M.texture != Texturing::none;
+    const Pixel texel = textured ? f.texel[i] : texel_solid | texel_semi;
+    if ((texel & texel_solid) == 0) continue;
+    const bool semi = M.blend != Blending::opaque && (texel & texel_semi) != 0;
+    if (paint.pass != Pass::all && semi != (paint.pass == Pass::semi_transparent)) continue;
+    const Pixel mask = paint.mask_set | (textured && (texel & texel_semi) != 0 ? mask_bit : 0);
+    for (std::size_t s = 0; s < samples; ++s) {
+      if ((f.alive[i] >> s & 1) == 0) continue;
+      const auto at = (row + i) * samples + s;
+      Pixel& pixel = target.colour[at];
+      if (paint.mask_test && (pixel & mask_bit) != 0) continue;
+      pixel = (semi ? blend<M.blend>(pixel, f.colour[i], paint.quantise) : f.colour[i]) | mask;
+      if constexpr (M.depth) {
+        if (paint.pass == Pass::opaque) target.depth[at] = f.keys[i * samples + s];
+      }
+      if constexpr (M.ids) {
+        if (s == 0) target.ids[row + i] = paint.id;
+      }
+      ++counters.written;
+    }
+  }
+}
+
+template <Mode M>
+void kernel(const Target& target, const Paint& paint, const Planes& planes, const Run& run,
+            Counters& counters) {
+  Fragments f;
+  if (run.covered != nullptr) {
+    std::copy_n(run.covered, run.count, f.alive.begin());
+  } else {
+    const auto all = static_cast<std::uint8_t>((1U << target.samples.size()) - 1);
+    std::fill_n(f.alive.begin(), run.count, all);
+  }
+  counters.covered += static_cast<std::uint64_t>(run.count);
+  ++counters.runs[M.index()];
+  if constexpr (M.depth) {
+    if (!test_depth(target, paint, planes, run, f)) return;
+  }
+  counters.shaded += static_cast<std::uint64_t>(run.count);
+
+  constexpr bool textured = M.texture != Texturing::none;
+  const Positions positions(target, planes, run);
+  std::array<double, run_length> z;
+  if (paint.perspective) interpolate_z(planes, positions, run.count, z);
+  if constexpr (textured) {
+    interpolate_texture(paint, planes, positions, z, run.count, f);
+    fetch_texels<M.texture>(paint, run.count, f);
+  }
+  interpolate_colour(paint, planes, positions, z, run.count, f);
+  std::array<std::int32_t, run_length> fog;
+  if (paint.fog != nullptr) fog_factors(*paint.fog, planes, positions, run.count, fog);
+  shade<textured>(paint, run, fog, f);
+  write<M>(target, paint, run, f, counters);
+}
+
+using Kernel = void (*)(const Target&, const Paint&, const Planes&, const Run&, Counters&);
+
+constexpr auto kernels = []<std::size_t... I>(std::index_sequence<I...>) {
+  return std::array<Kernel, Mode::count>{&kernel<Mode::at(I)>...};
+}
+(std::make_index_sequence<Mode::count>{});
+
+}  // namespace
+
+void draw_run(const Target& target, const Paint& paint, const Planes& planes, const Run& run,
+              Counters& counters) {
+  kernels[paint.mode.index()](target, paint, planes, run, counters);
+}
+
+}  // namespace gpu::canvas

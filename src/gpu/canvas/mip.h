@@ -1,0 +1,53 @@
+#pragma once
+// Mip levels of a texture page as one polygon reads it: through its CLUT and its texture window.
+
+#include <array>
+#include <cstdint>
+#include <list>
+#include <vector>
+
+#include "gpu/canvas/paint.h"
+
+namespace gpu::canvas {
+
+/// Levels 0 (256 x 256) to 8 (1 x 1), row by row. A texel of level n is the mean of the solid ones of its
+/// four texels of level n - 1; it is solid if at least two of them are, and semi-transparent if most of the
+/// solid ones are.
+class MipChain {
+ public:
+  static constexpr int levels = 9;
+
+  MipChain(const TextureView& view, TexelFormat format);
+
+  [[nodiscard]] Pixel at(int level, int u, int v) const {
+    const auto width = std::size_t{256} >> level;
+    return texels_[begins_[static_cast<std::size_t>(level)] + static_cast<std::size_t>(v) * width +
+                   static_cast<std::size_t>(u)];
+  }
+  [[nodiscard]] std::uint64_t bytes() const { return texels_.size() * sizeof(Pixel); }
+
+ private:
+  std::array<std::size_t, levels> begins_{};
+  std::vector<Pixel> texels_;
+};
+
+/// The chains of the pages in use. They live until VRAM is written by a fill, copy or upload (`forget`).
+class MipCache {
+ public:
+  /// The chain of a page; `clut_word` and the window in `state` tell views of one page apart.
+  const MipChain& chain(const TextureView& view, const DrawState& state, std::uint16_t clut_word);
+  void forget() { chains_.clear(); }
+  [[nodiscard]] std::uint64_t bytes() const;
+
+ private:
+  struct Entry {
+    std::uint64_t key;
+    MipChain chain;
+  };
+  std::list<Entry> chains_;  // most recently used first; a list, so that chains do not move
+};
+
+/// One texel of VRAM through CLUT and window, without filter.
+Pixel fetch(const TextureView& view, TexelFormat format, int u, int v);
+
+}  // namespace gpu::canvas

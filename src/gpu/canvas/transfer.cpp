@@ -1,0 +1,138 @@
+// Fills, copies and uploads: what changes VRAM without drawing changes the canvas alike.
+
+#include <algorithm>
+
+#include "gpu/canvas/canvas.h"
+#include "gpu/canvas/texel.h"
+
+namespace gpu::canvas {
+namespace {
+
+/// f(x, y, i, j) for every VRAM pixel of a rectangle that wraps at both edges of VRAM, row by row.
+template <class F>
+void for_each_pixel(Vertex corner, int width, int height, F&& f) {
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) {
+      f((corner.x + i) & (Vram::width - 1), (corner.y + j) & (Vram::height - 1), i, j);
+    }
+  }
+}
+
+/// The samples of one VRAM pixel in every layer: `scale` rows of `scale` pixels.
+class Blocks {
+ public:
+  Blocks(const Grid& grid, const Options& options, std::size_t samples)
+      : grid_(grid), options_(options), samples_(samples) {}
+
+  [[nodiscard]] bool contains(int x, int y) const {
+    return x >= grid_.x && x < grid_.x + options_.width && y >= grid_.y && y < grid_.y + options_.height;
+  }
+  /// Samples of one row of the block.
+  [[nodiscard]] std::size_t row_length() const { return static_cast<std::size_t>(options_.scale) * samples_; }
+  [[nodiscard]] std::size_t length() const { return row_length() * static_cast<std::size_t>(options_.scale); }
+  /// Index of the first sample of row `row` of the block of VRAM pixel (x, y).
+  [[nodiscard]] std::size_t row(int x, int y, int row) const {
+    const auto line = static_cast<std::size_t>((y - grid_.y) * options_.scale + row);
+    const auto width = static_cast<std::size_t>(options_.width * options_.scale);
+    return (line * width + static_cast<std::size_t>((x - grid_.x) * options_.scale)) * samples_;
+  }
+
+ private:
+  const Grid& grid_;
+  const Options& options_;
+  std::size_t samples_;
+};
+
+}  // namespace
+
+void Canvas::transfer(const Primitive& p, const Vram& vram) {
+  draw_queue();
+  mips_.forget();
+  switch (p.kind) {
+    case Kind::fill:
+      return fill(p);
+    case Kind::copy:
+      return copy_within(p), take_from(p, vram);
+    case Kind::upload:
+      return take_from(p, vram);
+    default:
+      return;
+  }
+}
+
+void Canvas::fill(const Primitive& p) {
+  const Blocks blocks(grid_, options_, samples());
+  const Pixel quantise = options_.colour == Colour::bits15 ? 0xf8f8f8 : 0xffffff;
+  const Pixel colour = p.command & quantise;
+  for_each_pixel(p.vertices[0], p.width, p.height, [&](int x, int y, int, int) {
+    if (!blocks.contains(x, y)) return;
+    for (Layer& layer : layers_) {
+      for (int row = 0; row < options_.scale; ++row) {
+        std::fill_n(layer.colour.begin() + static_cast<std::ptrdiff_t>(blocks.row(x, y, row)),
+                    blocks.row_length(), colour);
+      }
+    }
+  });
+}
+
+/// Pixels whose source is on the canvas too. A row is read whole before it is written, as in VRAM.
+void Canvas::copy_within(const Primitive& p) {
+  const Blocks blocks(grid_, options_, samples());
+  const Vertex to = p.vertices[0];
+  const Vertex from = p.vertices[1];
+  const Pixel set = p.state.mask_set() != 0 ? mask_bit : 0;
+  const Pixel test = p.state.mask_test() != 0 ? mask_bit : 0;
+  std::vector<Pixel> line(static_cast<std::size_t>(p.width) * blocks.length());
+  for (Layer& layer : layers_) {
+    const auto each = [&](int j, auto&& use) {
+      for (int i = 0; i < p.width; ++i) {
+        const int sx = (from.x + i) & (Vram::width - 1);
+        const int sy = (from.y + j) & (Vram::height - 1);
+        const int dx = (to.x + i) & (Vram::width - 1);
+        const int dy = (to.y + j) & (Vram::height - 1);
+        if (!blocks.contains(sx, sy) || !blocks.contains(dx, dy)) continue;
+        for (int row = 0; row < options_.scale; ++row) {
+          Pixel* kept = &line[static_cast<std::size_t>(i) * blocks.length() +
+                              static_cast<std::size_t>(row) * blocks.row_length()];
+          use(kept, &layer.colour[blocks.row(sx, sy, row)], &layer.colour[blocks.row(dx, dy, row)]);
+        }
+      }
+    };
+    for (int j = 0; j < p.height; ++j) {
+      each(j,
+           [&](Pixel* kept, const Pixel* source, Pixel*) { std::copy_n(source, blocks.row_length(), kept); });
+      each(j, [&](const Pixel* kept, const Pixel*, Pixel* target) {
+        for (std::size_t k = 0; k < blocks.row_length(); ++k) {
+          if ((target[k] & test) == 0) target[k] = kept[k] | set;
+        }
+      });
+    }
+  }
+}
+
+/// Pixels that came from outside the canvas. What an upload brought is read back from VRAM, so one that
+/// VRAM's own mask bits refused does not arrive.
+void Canvas::take_from(const Primitive& p, const Vram& vram) {
+  const Blocks blocks(grid_, options_, samples());
+  const bool is_copy = p.kind == Kind::copy;
+  const Pixel set = p.state.mask_set() != 0 ? mask_bit : 0;
+  const Pixel test = p.state.mask_test() != 0 ? mask_bit : 0;
+  for_each_pixel(p.vertices[0], p.width, p.height, [&](int x, int y, int i, int j) {
+    if (!blocks.contains(x, y)) return;
+    const int source_x = is_copy ? (p.vertices[1].x + i) & (Vram::width - 1) : x;
+    const int source_y = is_copy ? (p.vertices[1].y + j) & (Vram::height - 1) : y;
+    if (is_copy && blocks.contains(source_x, source_y)) return;
+    const std::uint16_t pixel = vram.at(source_x, source_y);
+    const Pixel colour =
+        widen(pixel, options_.colour == Colour::bits24) | ((pixel & 0x8000) != 0 ? mask_bit : 0) | set;
+    for (Layer& layer : layers_) {
+      for (int row = 0; row < options_.scale; ++row) {
+        Pixel* at = &layer.colour[blocks.row(x, y, row)];
+        std::replace_if(
+            at, at + blocks.row_length(), [test](Pixel old) { return (old & test) == 0; }, colour);
+      }
+    }
+  });
+}
+
+}  // namespace gpu::canvas

@@ -1,0 +1,5 @@
+otter_suite(canvas
+  LIBRARIES gpu
+  SOURCES
+    canvas_console.cpp
+    canvas_seams.cpp)
