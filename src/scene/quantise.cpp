@@ -107,8 +107,8 @@ void refine(std::span<const Entry> entries, std::vector<std::uint16_t>& palette)
 
 // `colours` at most, for entries without 0000h.
 std::vector<std::uint16_t> choose(std::vector<Entry>& entries, std::size_t colours) {
-  const auto opaque_end =
-      std::stable_partition(entries.begin(), entries.end(), [](const Entry& e) { return (e.texel & semi) == 0; });
+  const auto opaque_end = std::stable_partition(entries.begin(), entries.end(),
+                                                [](const Entry& e) { return (e.texel & semi) == 0; });
   const auto opaque = static_cast<std::size_t>(opaque_end - entries.begin());
   std::vector<Box> boxes;
   if (opaque > 0) boxes.push_back(measured(entries, 0, opaque));

@@ -35,10 +35,13 @@ class Grid {
     rows_.fill((std::uint64_t{1} << cells(frame_width, 64) * page_cells) - 1);
   }
 
-  // The first free place, column by column. `step` and `step_y`: where it may begin, in cells.
-  std::optional<Cell> place(int width, int height, int step, int step_y) {
+  // The first free place, column by column. `step`, `step_y`: where it may begin, in cells. `texels` must not
+  // pass texel 255 of the page that the place begins in; `per` texels lie in a halfword.
+  std::optional<Cell> place(int width, int height, int step = 1, int step_y = 1, int texels = 0,
+                            int per = 1) {
     const std::uint64_t block = width == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << width) - 1;
     for (int x = 0; x + width <= grid; x += step) {
+      if (x % page_cells * cell_width * per + texels > 256) continue;
       for (int y = 0; y + height <= grid; y += step_y) {
         if (y / band_cells != (y + height - 1) / band_cells || !free(block << x, y, height)) continue;
         for (int row = y; row < y + height; ++row) rows_[static_cast<std::size_t>(row)] |= block << x;
@@ -70,7 +73,7 @@ class Tables {
       ++y_;
     }
     if (y_ >= end_y_) {
-      const auto strip = space_->place(256 / cell_width, 1, 1, 1);
+      const auto strip = space_->place(256 / cell_width, 1);
       if (!strip) return std::nullopt;
       first_x_ = x_ = strip->x * cell_width;
       end_x_ = x_ + 256;
@@ -124,7 +127,8 @@ int halfwords_wide(const Prepared& p) {
 }
 // Halfwords it takes in the grid, whole cells.
 int area(const Prepared& p) {
-  return cells(halfwords_wide(p), cell_width) * cell_width * cells(stored_period(p, p.height), cell_height) * cell_height;
+  return cells(halfwords_wide(p), cell_width) * cell_width * cells(stored_period(p, p.height), cell_height) *
+         cell_height;
 }
 
 std::vector<std::uint16_t> packed_rows(const Prepared& p) {
@@ -168,14 +172,9 @@ bool store(const Prepared& p, Grid& space, Tables& tables, TexturePack& pack, St
   const int per = texels_per_halfword(p.depth);
   const int width = stored_period(p, p.width);
   const int height = stored_period(p, p.height);
-  // A windowed texture begins at a multiple of its period; one that would pass texel 255 of the page its left edge is
-  // in begins at a page. Steps are powers of two cells.
-  const bool aligned_x = p.repeats && power_of_two(p.width);
-  const bool aligned_y = p.repeats && power_of_two(p.height);
-  const int page_texels = page_cells * cell_width * per;
-  int step = aligned_x ? std::max(1, width / per / cell_width) : 1;
-  if (page_texels - cell_width * per + width > 256) step = std::max(step, page_cells);
-  const int step_y = aligned_y ? std::max(1, height / cell_height) : 1;
+  // A windowed texture begins at a multiple of its period.
+  const int step = p.repeats && power_of_two(p.width) ? std::max(1, width / per / cell_width) : 1;
+  const int step_y = p.repeats && power_of_two(p.height) ? std::max(1, height / cell_height) : 1;
 
   Cell table{0, 0};
   if (!p.palette.empty()) {
@@ -186,7 +185,8 @@ bool store(const Prepared& p, Grid& space, Tables& tables, TexturePack& pack, St
     pack.blocks.push_back(
         {{static_cast<std::uint16_t>(table.x), static_cast<std::uint16_t>(table.y), entries, 1}, p.palette});
   }
-  const auto place = space.place(cells(halfwords_wide(p), cell_width), cells(height, cell_height), step, step_y);
+  const auto place =
+      space.place(cells(halfwords_wide(p), cell_width), cells(height, cell_height), step, step_y, width, per);
   if (!place) return false;
   const int x = place->x * cell_width;
   const int y = place->y * cell_height;
@@ -231,8 +231,9 @@ struct Sample {
   }
 };
 
-// Calls add(source, target, weight) for every overlap of `from` source samples with `to` target samples, on a scale
-// where a source sample is `to` wide and a target sample `from`: the weights of a target add up to `from`.
+// Calls add(source, target, weight) for every overlap of `from` source samples with `to` target samples, on a
+// scale where a source sample is `to` wide and a target sample `from`: the weights of a target add up to
+// `from`.
 template <class Add>
 void for_each_overlap(int from, int to, Add&& add) {
   for (int i = 0; i < to; ++i) {
@@ -269,24 +270,27 @@ std::uint8_t TexelAxis::coordinate(double t, double base) const {
 }
 
 Texture scaled(const Texture& texture, int halvings) {
-  const auto size = [&](int n) { return std::max(1, std::min(n, 256) >> halvings); };
-  Texture out = texture;
+  const auto size = [halvings](int n) { return std::max(1, std::min(n, 256) >> halvings); };
+  Texture out{texture.name, 1, 1, {}, texture.depth, texture.repeats};
   if (texture.width < 1 || texture.height < 1 ||
-      texture.pixels.size() != static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height)) {
-    out.width = out.height = 1;
+      texture.pixels.size() !=
+          static_cast<std::size_t>(texture.width) * static_cast<std::size_t>(texture.height)) {
     out.pixels = {Rgba8{255, 255, 255, 255}};
     return out;
   }
   const int width = size(texture.width);
   const int height = size(texture.height);
-  if (width == texture.width && height == texture.height) return out;
+  if (width == texture.width && height == texture.height) return texture;
   const auto columns = static_cast<std::size_t>(width);
   std::vector<Sample> row(columns);
   std::vector<Sample> sums(columns * static_cast<std::size_t>(height));
   auto held = static_cast<std::size_t>(texture.height);  // the source row that `row` holds
   for_each_overlap(texture.height, height, [&](std::size_t from, std::size_t to, std::uint64_t weight) {
-    if (from != held) average_row(std::span(texture.pixels).subspan(from * static_cast<std::size_t>(texture.width),
-                                                                    static_cast<std::size_t>(texture.width)), row);
+    if (from != held)
+      average_row(std::span(texture.pixels)
+                      .subspan(from * static_cast<std::size_t>(texture.width),
+                               static_cast<std::size_t>(texture.width)),
+                  row);
     held = from;
     for (std::size_t x = 0; x < columns; ++x) sums[to * columns + x].add(row[x], weight);
   });
@@ -308,8 +312,9 @@ TexturePack pack_textures(std::span<const Texture> textures, int width) {
   prepared.reserve(textures.size());
   for (const auto& texture : textures) prepared.push_back(prepare(texture, 0));
   const auto halve_largest = [&] {
-    const auto largest = std::max_element(prepared.begin(), prepared.end(),
-                                          [](const Prepared& a, const Prepared& b) { return area(a) < area(b); });
+    const auto largest =
+        std::max_element(prepared.begin(), prepared.end(),
+                         [](const Prepared& a, const Prepared& b) { return area(a) < area(b); });
     if (largest == prepared.end() || largest->is_texel()) return false;
     *largest = prepare(textures[static_cast<std::size_t>(largest - prepared.begin())], largest->halvings + 1);
     return true;
@@ -329,13 +334,14 @@ TexturePack pack_textures(std::span<const Texture> textures, int width) {
   if (!pack) {
     pack.emplace();
     pack->textures.resize(textures.size());
-    pack->report.push_back(std::to_string(textures.size()) + " textures: they do not fit into VRAM, and none is drawn");
+    pack->report.push_back(std::to_string(textures.size()) +
+                           " textures: they do not fit into VRAM, and none is drawn");
     return std::move(*pack);
   }
   for (std::size_t i = 0; i < textures.size(); ++i) {
     const auto& t = textures[i];
     if (prepared[i].width == t.width && prepared[i].height == t.height) continue;
-    pack->report.push_back("texture " + (t.name.empty() ? "#" + std::to_string(i) : t.name) + ": " +
+    pack->report.push_back("texture " + (t.name.empty() ? std::to_string(i) : t.name) + ": " +
                            size_text(t.width, t.height) + " stored as " +
                            size_text(prepared[i].width, prepared[i].height));
   }

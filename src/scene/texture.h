@@ -1,6 +1,6 @@
 #pragma once
-// Pictures of any size become textures in VRAM: scaled to 256 x 256 texels at most, quantised, and packed into the
-// space that the frame buffers leave.
+// Pictures of any size become textures in VRAM: scaled to 256 x 256 texels at most, quantised, and packed
+// into the space that the frame buffers leave.
 //
 //     x 0        W                  1023
 //       +--------+---------------------+ 0      W x 480: frame buffers of the display mode
@@ -24,10 +24,10 @@ namespace scene {
 
 /// One axis of a stored texture.
 struct TexelAxis {
-  int texels = 1;        ///< one period
-  int origin = 0;        ///< its first texel, counted from the page: 0..255
+  int texels = 1;         ///< one period
+  int origin = 0;         ///< its first texel, counted from the page: 0..255
   bool windowed = false;  ///< repeats by the texture window; otherwise coordinates beyond 0..1 need splitting
-  bool repeats = false;  ///< coordinates outside 0..1 wrap; otherwise they are clamped
+  bool repeats = false;   ///< coordinates outside 0..1 wrap; otherwise they are clamped
 
   /// Whole periods that a polygon may span: what 8-bit coordinates can hold.
   [[nodiscard]] int periods() const { return windowed && texels < 128 ? 255 / texels : 1; }
@@ -55,12 +55,13 @@ struct TexturePack {
   bool uses_windows = false;
 };
 
-/// A texture at most 256 x 256: each side that is longer is scaled down by exact area averages (alpha-weighted), to 256.
-/// `halvings` halves it that many times more, down to 1 texel.
+/// A texture at most 256 x 256: each side that is longer is scaled down by exact area averages
+/// (alpha-weighted), to 256. `halvings` halves it that many times more, down to 1 texel.
 [[nodiscard]] Texture scaled(const Texture& texture, int halvings);
 
-/// Packs all textures beside frame buffers of `width` pixels (256, 320, 368, 512 or 640). While they do not fit, the
-/// largest is halved. Any number and size of textures; a picture without pixels becomes one white texel.
+/// Packs all textures beside frame buffers of `width` pixels (256, 320, 368, 512 or 640). While they do not
+/// fit, the largest is halved. Any number and size of textures; a picture without pixels becomes one white
+/// texel.
 [[nodiscard]] TexturePack pack_textures(std::span<const Texture> textures, int width);
 
 }  // namespace scene

@@ -1,0 +1,217 @@
+#include "scene/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <tuple>
+
+#include "scene/angle.h"
+#include "scene/view.h"
+
+namespace scene {
+namespace {
+
+// What a frame has to do to a colour; the order is that of the runs.
+enum class Shading : std::uint8_t { lit, cued, constant };
+
+// One corner of a face or end of a line. Corners that shade alike share a colour.
+struct CornerColour {
+  Shading shading = Shading::constant;
+  std::uint32_t vertex = none;  // if its depth or its own normal matters
+  gte::Vertex normal;
+  Rgb8 colour;
+  glm::vec3 exact_normal{0.0F};
+  std::uint32_t* number = nullptr;  // where the corner keeps its colour's index
+
+  [[nodiscard]] auto key() const {
+    return std::tuple(shading, vertex, normal.x, normal.y, normal.z, colour.r, colour.g, colour.b);
+  }
+};
+
+gte::Vertex fixed_normal(glm::vec3 n) {
+  const auto fixed = [](float v) { return round_saturated<std::int16_t>(static_cast<double>(v) * 4096); };
+  return {fixed(n.x), fixed(n.y), fixed(n.z), 0};
+}
+
+glm::vec3 unit(glm::vec3 v) {
+  const float length = std::sqrt(glm::dot(v, v));
+  return length > 0 && std::isfinite(length) ? v / length : glm::vec3(0, 0, 0);
+}
+
+// Newell's normal: right for quads that are not flat, too.
+glm::vec3 face_normal(const Mesh& mesh, const Face& face) {
+  const std::size_t n = face.is_quad() ? 4 : 3;
+  glm::vec3 sum{0.0F};
+  for (std::size_t i = 0; i < n; ++i) {
+    const glm::vec3 a = mesh.positions[face.vertex[i]] - mesh.positions[face.vertex[0]];
+    const glm::vec3 b = mesh.positions[face.vertex[(i + 1) % n]] - mesh.positions[face.vertex[0]];
+    sum += glm::cross(a, b);
+  }
+  return unit(sum);
+}
+
+// Counter-clockwise with y up is counter-clockwise to the eye; the console's front is clockwise.
+constexpr std::array<std::size_t, 4> triangle_order{0, 2, 1, 3}, quad_order{0, 3, 1, 2};
+const auto& console_order(const Face& face) { return face.is_quad() ? quad_order : triangle_order; }
+std::size_t corners(const Face& face) { return face.is_quad() ? 4 : 3; }
+
+class Maker {
+ public:
+  Maker(const Mesh& mesh, std::span<const Material> materials, std::span<const StoredTexture> textures, bool is_cued)
+      : mesh_(mesh), materials_(materials), textures_(textures), is_cued_(is_cued) {}
+
+  [[nodiscard]] bool is_drawable(std::span<const std::uint32_t> vertices, std::uint32_t material) const {
+    if (material >= materials_.size()) return false;
+    return std::all_of(vertices.begin(), vertices.end(), [&](std::uint32_t v) {
+      if (v >= mesh_.positions.size()) return false;
+      const glm::vec3 p = mesh_.positions[v];
+      return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+    });
+  }
+
+  ModelFace face(const Face& face, std::uint32_t source) const {
+    const auto& order = console_order(face);
+    ModelFace out;
+    out.material = face.material;
+    out.source = source;
+    for (std::size_t k = 0; k < 4; ++k) out.vertex[k] = face.vertex[order[k]];
+    const auto texture = materials_[face.material].texture;
+    if (texture < textures_.size()) texture_coordinates(face, textures_[texture], order, out);
+    return out;
+  }
+
+  // Notes the corners of a face, in its console order, for numbering.
+  void add_corners(const Face& face, ModelFace& out) {
+    const bool flat_normal = mesh_.normals.size() != mesh_.positions.size();
+    const glm::vec3 normal = flat_normal ? face_normal(mesh_, face) : glm::vec3{0.0F};
+    for (std::size_t k = 0; k < corners(face); ++k) {
+      add(face.material, out.vertex[k], flat_normal ? normal : unit(mesh_.normals[out.vertex[k]]), !flat_normal,
+          face.colour[console_order(face)[k]], &out.colour[k]);
+    }
+  }
+  void add_ends(const Line& line, ModelLine& out) {
+    for (std::size_t k = 0; k < 2; ++k) {
+      add(line.material, line.vertex[k], std::nullopt, false, line.colour[k], &out.colour[k]);
+    }
+  }
+
+  ModelColours number() {
+    std::sort(corners_.begin(), corners_.end(),
+              [](const CornerColour& a, const CornerColour& b) { return a.key() < b.key(); });
+    ModelColours out;
+    const CornerColour* last = nullptr;
+    for (const auto& corner : corners_) {
+      if (last == nullptr || last->key() != corner.key()) append(out, corner);
+      last = &corner;
+      *corner.number = static_cast<std::uint32_t>(out.given.size() - 1);
+    }
+    return out;
+  }
+
+ private:
+  // Lines have no normal and are not lit.
+  void add(std::uint32_t material, std::uint32_t vertex, std::optional<glm::vec3> normal, bool own_normal, Rgb8 colour,
+           std::uint32_t* number) {
+    const Material& m = materials_[material];
+    CornerColour corner;
+    corner.colour = colour;
+    corner.number = number;
+    const bool uses_colour = !(m.raw_texture && m.texture < textures_.size());
+    if (uses_colour && m.lit && normal) {
+      corner.shading = Shading::lit;
+      corner.normal = fixed_normal(*normal);
+      corner.exact_normal = *normal;
+    } else if (uses_colour && is_cued_) {
+      corner.shading = Shading::cued;
+    }
+    if (corner.shading != Shading::constant && (is_cued_ || own_normal)) corner.vertex = vertex;
+    corners_.push_back(corner);
+  }
+
+  static void append(ModelColours& out, const CornerColour& corner) {
+    out.given.push_back({corner.colour.r, corner.colour.g, corner.colour.b, 0});
+    if (corner.shading == Shading::constant) return;
+    out.vertex.push_back(corner.vertex == none ? 0 : corner.vertex);
+    out.cued = out.given.size();
+    if (corner.shading == Shading::cued) return;
+    out.normal.push_back(corner.normal);
+    out.exact_normal.push_back(corner.exact_normal);
+    out.lit = out.given.size();
+  }
+
+  static void texture_coordinates(const Face& face, const StoredTexture& texture,
+                                  const std::array<std::size_t, 4>& order, ModelFace& out) {
+    const std::size_t n = face.is_quad() ? 4 : 3;
+    double base_u = face.uv[0].x;
+    double base_v = face.uv[0].y;
+    for (std::size_t k = 1; k < n; ++k) {
+      base_u = std::min(base_u, static_cast<double>(face.uv[k].x));
+      base_v = std::min(base_v, static_cast<double>(face.uv[k].y));
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto uv = face.uv[order[k]];
+      out.uv[k] = {texture.u.coordinate(uv.x, std::floor(base_u)), texture.v.coordinate(uv.y, std::floor(base_v))};
+    }
+  }
+
+  const Mesh& mesh_;
+  std::span<const Material> materials_;
+  std::span<const StoredTexture> textures_;
+  bool is_cued_;
+  std::vector<CornerColour> corners_;
+};
+
+void store_vertices(const Mesh& mesh, double scale, Model& model) {
+  const Box3 box = bounds_of(mesh);
+  model.centre = (box.low + box.high) * 0.5;
+  const glm::dvec3 half = (box.high - box.low) * 0.5;
+  model.radius = std::sqrt(glm::dot(half, half));
+  const double most = std::max({half.x, half.y, half.z});
+  model.scale = most * scale > 32767 ? 32767 / most : scale;
+  model.positions = mesh.positions;
+  model.vertices.reserve(mesh.positions.size());
+  for (const auto& p : mesh.positions) {
+    const glm::dvec3 v = (glm::dvec3(p) - model.centre) * model.scale;
+    model.vertices.push_back(
+        {round_saturated<std::int16_t>(v.x), round_saturated<std::int16_t>(v.y), round_saturated<std::int16_t>(v.z), 0});
+  }
+}
+
+}  // namespace
+
+Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources, std::span<const Material> materials,
+                 std::span<const StoredTexture> textures, double scale, bool is_cued) {
+  Model model;
+  store_vertices(mesh, scale, model);
+  Maker maker(mesh, materials, textures, is_cued);
+  std::vector<const Face*> faces;
+  for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
+    const auto& face = mesh.faces[i];
+    if (!maker.is_drawable(std::span(face.vertex).first(corners(face)), face.material)) continue;
+    model.faces.push_back(maker.face(face, i < sources.size() ? sources[i] : static_cast<std::uint32_t>(i)));
+    faces.push_back(&face);
+  }
+  std::vector<const Line*> lines;
+  for (const auto& line : mesh.lines) {
+    if (!maker.is_drawable(line.vertex, line.material)) continue;
+    ModelLine out;
+    out.vertex = line.vertex;
+    out.material = line.material;
+    model.lines.push_back(out);
+    lines.push_back(&line);
+  }
+  // Only now that the vectors have stopped growing may corners keep addresses into them.
+  for (std::size_t i = 0; i < faces.size(); ++i) maker.add_corners(*faces[i], model.faces[i]);
+  for (std::size_t i = 0; i < lines.size(); ++i) maker.add_ends(*lines[i], model.lines[i]);
+  model.colours = maker.number();
+  for (auto& face : model.faces) {
+    const std::size_t n = face.is_quad() ? 4 : 3;
+    face.gouraud = std::any_of(face.colour.begin() + 1, face.colour.begin() + static_cast<std::ptrdiff_t>(n),
+                               [&](std::uint32_t c) { return c != face.colour[0]; });
+  }
+  for (auto& line : model.lines) line.gouraud = line.colour[0] != line.colour[1];
+  return model;
+}
+
+}  // namespace scene
