@@ -22,15 +22,9 @@ Clipper::Clipper(const Projection& p, bool whole) : near_z_(p.near_z), whole_(wh
   const auto left_of = [&](double half) { return Plane{{h, 0, half}, 0}; };
   const auto below = [&](double half) { return Plane{{0, -h, half}, 0}; };
   const auto above = [&](double half) { return Plane{{0, h, half}, 0}; };
-  planes_ = {Plane{{0, 0, 1}, -near_z_},
-             Plane{{0, 0, -1}, farthest},
-             left_of(guard_band.half_width),
-             right_of(guard_band.half_width),
-             above(guard_band.half_height),
-             below(guard_band.half_height),
-             Plane{{1, 0, 0}, widest},
-             Plane{{-1, 0, 0}, widest},
-             Plane{{0, 1, 0}, widest},
+  planes_ = {Plane{{0, 0, 1}, -near_z_},      Plane{{0, 0, -1}, farthest},   left_of(guard_band.half_width),
+             right_of(guard_band.half_width), above(guard_band.half_height), below(guard_band.half_height),
+             Plane{{1, 0, 0}, widest},        Plane{{-1, 0, 0}, widest},     Plane{{0, 1, 0}, widest},
              Plane{{0, -1, 0}, widest}};
   picture_ = {left_of(p.width / 2 + picture_margin), right_of(p.width / 2 + picture_margin),
               above(p.height / 2 + picture_margin), below(p.height / 2 + picture_margin)};
@@ -45,7 +39,8 @@ ClipVertex Clipper::cut(const Plane& plane, const ClipVertex& a, const ClipVerte
   if (&plane == &planes_[0]) p.z = near_z_;
   p.z = std::clamp(p.z, near_z_, farthest);
   if (whole_) {
-    // The point moves along its line of sight to the next whole z, so that only the rounding of x and y shows.
+    // The point moves along its line of sight to the next whole z, so that only the rounding of x and y
+    // shows.
     const double z = std::floor(p.z + 0.5);
     p = {std::floor(p.x * z / p.z + 0.5), std::floor(p.y * z / p.z + 0.5), z};
   }
@@ -90,7 +85,8 @@ void Clipper::clip(ClipPolygon& in, ClipPolygon& out) const {
 
 Beyond Clipper::wholly_beyond(const ClipPolygon& polygon) const {
   const auto all_outside = [&](const Plane& plane) {
-    return std::all_of(polygon.vertex.begin(), polygon.vertex.begin() + static_cast<std::ptrdiff_t>(polygon.count),
+    return std::all_of(polygon.vertex.begin(),
+                       polygon.vertex.begin() + static_cast<std::ptrdiff_t>(polygon.count),
                        [&](const ClipVertex& v) { return plane.distance(v.position) < 0; });
   };
   if (all_outside(planes_[0])) return Beyond::near_plane;

@@ -1,12 +1,13 @@
 #pragma once
 // Clipping before projection, edge by edge.
 //
-// A point that a plane puts on an edge depends on the two ends of that edge alone, taken in a fixed order, and whether
-// an end is outside depends on that end alone. So two faces that share an edge cut it in the same point, whatever else
-// they look like, and no crack can open between them. Tests hold it: "neighbours insert the same vertex".
+// A point that a plane puts on an edge depends on the two ends of that edge alone, taken in a fixed order,
+// and whether an end is outside depends on that end alone. So two faces that share an edge cut it in the same
+// point, whatever else they look like, and no crack can open between them. Tests hold it: "neighbours insert
+// the same vertex".
 //
-// The planes: near (never nearer than H/2, where the GTE's quotient overflows), far (65535), the guard band, and
-// the 16 bits of view-space x and y. What is left obeys the GPU's size rule without further splitting.
+// The planes: near (never nearer than H/2, where the GTE's quotient overflows), far (65535), the guard band,
+// and the 16 bits of view-space x and y. What is left obeys the GPU's size rule without further splitting.
 
 #include <array>
 #include <cstdint>
@@ -17,11 +18,11 @@
 namespace scene {
 
 struct ClipVertex {
-  glm::dvec3 position{0.0};          ///< view space
-  std::array<float, 3> colour{};     ///< 0..255
-  std::array<float, 2> uv{};         ///< 0..255
-  bool is_projectable = false;       ///< project() says so: no plane cuts it off
-  std::uint32_t vertex = 0xffffffff; ///< vertex of the model it was, none for a new one
+  glm::dvec3 position{0.0};           ///< view space
+  std::array<float, 3> colour{};      ///< 0..255
+  std::array<float, 2> uv{};          ///< 0..255
+  bool is_projectable = false;        ///< project() says so: no plane cuts it off
+  std::uint32_t vertex = 0xffffffff;  ///< vertex of the model it was, none for a new one
 };
 
 /// At most 3 + one per plane.
@@ -40,12 +41,12 @@ class Clipper {
   /// `whole`: new vertices are rounded to whole units, as the GTE's view space is.
   Clipper(const Projection& projection, bool whole);
 
-  /// Cuts a polygon (or, with two vertices, a line) down to the planes. `in` is used up. Returns what is left:
-  /// nothing if fewer than three (two) vertices are inside.
+  /// Cuts a polygon (or, with two vertices, a line) down to the planes. `in` is used up. Returns what is
+  /// left: nothing if fewer than three (two) vertices are inside.
   void clip(ClipPolygon& in, ClipPolygon& out) const;
 
-  /// A plane that the whole polygon is beyond, or nothing. Exact for the picture's sides, margin included, also for vertices
-  /// that cannot be projected.
+  /// A plane that the whole polygon is beyond, or nothing. Exact for the picture's sides, margin included,
+  /// also for vertices that cannot be projected.
   [[nodiscard]] Beyond wholly_beyond(const ClipPolygon& polygon) const;
 
  private:

@@ -98,10 +98,13 @@ class FrameBuilder {
   /// GTE units per world unit, chosen or given.
   [[nodiscard]] double units_per_world() const;
 
-  /// GP0(A0h) uploads of all textures, display mode and range by GP1. Call once, and again after the GPU was
-  /// reset or the size or subdivide knob changed (needs_upload()).
-  void upload(gpu::Gpu& gpu);
+  /// Makes ready for other knobs: packs and subdivides again if the size or subdivide knob changed.
+  void prepare(const Knobs& knobs);
+  /// True if prepare() would have to do something, after which upload() is due.
   [[nodiscard]] bool needs_upload(const Knobs& knobs) const;
+  /// GP0(A0h) uploads of all textures, display mode and range by GP1. Call once, again after prepare()
+  /// changed anything or the GPU was reset. (render_frame does the former.)
+  void upload(gpu::Gpu& gpu);
   /// The same words, for recording: GP0 words of the textures, GP1 words of the display.
   [[nodiscard]] std::vector<std::uint32_t> upload_gp0() const;
   [[nodiscard]] std::vector<std::uint32_t> display_gp1() const;

@@ -58,7 +58,8 @@ std::size_t corners(const Face& face) { return face.is_quad() ? 4 : 3; }
 
 class Maker {
  public:
-  Maker(const Mesh& mesh, std::span<const Material> materials, std::span<const StoredTexture> textures, bool is_cued)
+  Maker(const Mesh& mesh, std::span<const Material> materials, std::span<const StoredTexture> textures,
+        bool is_cued)
       : mesh_(mesh), materials_(materials), textures_(textures), is_cued_(is_cued) {}
 
   [[nodiscard]] bool is_drawable(std::span<const std::uint32_t> vertices, std::uint32_t material) const {
@@ -86,8 +87,8 @@ class Maker {
     const bool flat_normal = mesh_.normals.size() != mesh_.positions.size();
     const glm::vec3 normal = flat_normal ? face_normal(mesh_, face) : glm::vec3{0.0F};
     for (std::size_t k = 0; k < corners(face); ++k) {
-      add(face.material, out.vertex[k], flat_normal ? normal : unit(mesh_.normals[out.vertex[k]]), !flat_normal,
-          face.colour[console_order(face)[k]], &out.colour[k]);
+      add(face.material, out.vertex[k], flat_normal ? normal : unit(mesh_.normals[out.vertex[k]]),
+          !flat_normal, face.colour[console_order(face)[k]], &out.colour[k]);
     }
   }
   void add_ends(const Line& line, ModelLine& out) {
@@ -111,8 +112,8 @@ class Maker {
 
  private:
   // Lines have no normal and are not lit.
-  void add(std::uint32_t material, std::uint32_t vertex, std::optional<glm::vec3> normal, bool own_normal, Rgb8 colour,
-           std::uint32_t* number) {
+  void add(std::uint32_t material, std::uint32_t vertex, std::optional<glm::vec3> normal, bool own_normal,
+           Rgb8 colour, std::uint32_t* number) {
     const Material& m = materials_[material];
     CornerColour corner;
     corner.colour = colour;
@@ -151,7 +152,8 @@ class Maker {
     }
     for (std::size_t k = 0; k < n; ++k) {
       const auto uv = face.uv[order[k]];
-      out.uv[k] = {texture.u.coordinate(uv.x, std::floor(base_u)), texture.v.coordinate(uv.y, std::floor(base_v))};
+      out.uv[k] = {texture.u.coordinate(uv.x, std::floor(base_u)),
+                   texture.v.coordinate(uv.y, std::floor(base_v))};
     }
   }
 
@@ -173,15 +175,16 @@ void store_vertices(const Mesh& mesh, double scale, Model& model) {
   model.vertices.reserve(mesh.positions.size());
   for (const auto& p : mesh.positions) {
     const glm::dvec3 v = (glm::dvec3(p) - model.centre) * model.scale;
-    model.vertices.push_back(
-        {round_saturated<std::int16_t>(v.x), round_saturated<std::int16_t>(v.y), round_saturated<std::int16_t>(v.z), 0});
+    model.vertices.push_back({round_saturated<std::int16_t>(v.x), round_saturated<std::int16_t>(v.y),
+                              round_saturated<std::int16_t>(v.z), 0});
   }
 }
 
 }  // namespace
 
-Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources, std::span<const Material> materials,
-                 std::span<const StoredTexture> textures, double scale, bool is_cued) {
+Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources,
+                 std::span<const Material> materials, std::span<const StoredTexture> textures, double scale,
+                 bool is_cued) {
   Model model;
   store_vertices(mesh, scale, model);
   Maker maker(mesh, materials, textures, is_cued);

@@ -1,6 +1,6 @@
 #pragma once
-// A mesh made ready for the GTE once: 16-bit vertices, and every corner's colour given a number, so that a frame
-// projects each vertex and lights each different corner once.
+// A mesh made ready for the GTE once: 16-bit vertices, and every corner's colour given a number, so that a
+// frame projects each vertex and lights each different corner once.
 
 #include <array>
 #include <cstdint>
@@ -35,12 +35,12 @@ struct ModelLine {
 
 /// Faces name colours by number. They stand in three runs, by what a frame has to do to them.
 struct ModelColours {
-  std::vector<gte::Colour> given;     ///< all, before light and fog
-  std::vector<std::uint32_t> vertex;  ///< of the lit and the cued: whose depth the fog takes
-  std::vector<gte::Vertex> normal;    ///< of the lit: 1.3.12
+  std::vector<gte::Colour> given;       ///< all, before light and fog
+  std::vector<std::uint32_t> vertex;    ///< of the lit and the cued: whose depth the fog takes
+  std::vector<gte::Vertex> normal;      ///< of the lit: 1.3.12
   std::vector<glm::vec3> exact_normal;  ///< of the lit, for instances that are not scaled evenly
-  std::size_t lit = 0;                ///< given[0, lit) are lit (and fogged)
-  std::size_t cued = 0;               ///< given[lit, cued) are only fogged; the rest stays as given
+  std::size_t lit = 0;                  ///< given[0, lit) are lit (and fogged)
+  std::size_t cued = 0;                 ///< given[lit, cued) are only fogged; the rest stays as given
 };
 
 struct Model {
@@ -54,8 +54,9 @@ struct Model {
   ModelColours colours;
 };
 
-/// `scale`: stored units per mesh unit wanted; less is used where 16 bits would not hold it. Faces and lines with an
-/// index that is out of range, or a vertex that is not finite, are left out. `is_cued`: the world has a depth cue.
+/// `scale`: stored units per mesh unit wanted; less is used where 16 bits would not hold it. Faces and lines
+/// with an index that is out of range, or a vertex that is not finite, are left out. `is_cued`: the world has
+/// a depth cue.
 [[nodiscard]] Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources,
                                std::span<const Material> materials, std::span<const StoredTexture> textures,
                                double scale, bool is_cued);

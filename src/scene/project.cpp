@@ -11,8 +11,8 @@
 namespace scene {
 namespace {
 
-// Screen positions between which a vertex may stay as it is. Whole pixels inside the guard band of clip.cpp, so that
-// nothing that counts as projectable needs cutting.
+// Screen positions between which a vertex may stay as it is. Whole pixels inside the guard band of clip.cpp,
+// so that nothing that counts as projectable needs cutting.
 struct Limits {
   explicit Limits(const Projection& p)
       : near_z(p.near_z),
@@ -25,16 +25,17 @@ struct Limits {
   int near_z, left, right, top, bottom, picture_right, picture_bottom;
 };
 
-// FLAG bits that make a screen position worthless. MAC0 is not among them: where it overflows for x or y, SX2 or SY2
-// saturates, and the fog's MAC0 concerns nobody here.
+// FLAG bits that make a screen position worthless. MAC0 is not among them: where it overflows for x or y, SX2
+// or SY2 saturates, and the fog's MAC0 concerns nobody here.
 constexpr std::uint32_t worthless =
     gte::flag::error_causes & ~(gte::flag::mac0_positive | gte::flag::mac0_negative);
 
 std::uint8_t code_of(const Limits& l, gte::ScreenXy p, std::uint16_t z, std::uint32_t flag) {
-  const bool unprojectable =
-      (flag & worthless) != 0 || z < l.near_z || p.x < l.left || p.x > l.right || p.y < l.top || p.y > l.bottom;
-  const auto sides = (p.x < -picture_margin ? outcode::left : 0) | (p.x >= l.picture_right ? outcode::right : 0) |
-                     (p.y < -picture_margin ? outcode::above : 0) | (p.y >= l.picture_bottom ? outcode::below : 0);
+  const bool unprojectable = (flag & worthless) != 0 || z < l.near_z || p.x < l.left || p.x > l.right ||
+                             p.y < l.top || p.y > l.bottom;
+  const auto sides =
+      (p.x < -picture_margin ? outcode::left : 0) | (p.x >= l.picture_right ? outcode::right : 0) |
+      (p.y < -picture_margin ? outcode::above : 0) | (p.y >= l.picture_bottom ? outcode::below : 0);
   return static_cast<std::uint8_t>(unprojectable ? outcode::unprojectable : sides);
 }
 
@@ -44,7 +45,9 @@ struct FloatingMap {
   explicit FloatingMap(const Placement& placement)
       : linear(placement.exact.linear), offset(placement.exact.offset), projection(placement.projection) {}
 
-  [[nodiscard]] glm::vec<3, Real> to_view(glm::vec3 p) const { return linear * glm::vec<3, Real>(p) + offset; }
+  [[nodiscard]] glm::vec<3, Real> to_view(glm::vec3 p) const {
+    return linear * glm::vec<3, Real>(p) + offset;
+  }
 
   // False where a screen position would mean nothing.
   bool to_screen(glm::vec<3, Real> view, ProjectedPoint& out) const {
@@ -129,9 +132,12 @@ void Projected::resize(std::size_t vertices, const Wanted& wanted) {
 
 glm::dvec3 Placement::view_position(std::uint32_t vertex) const {
   switch (transform) {
-    case Transform::float32: return FloatingMap<float>(*this).to_view(model->positions[vertex]);
-    case Transform::float64: return FloatingMap<double>(*this).to_view(model->positions[vertex]);
-    case Transform::gte: break;
+    case Transform::float32:
+      return FloatingMap<float>(*this).to_view(model->positions[vertex]);
+    case Transform::float64:
+      return FloatingMap<double>(*this).to_view(model->positions[vertex]);
+    case Transform::gte:
+      break;
   }
   // MAC1..3 of RTPS: no sum can overflow, set_transform saw to that.
   const gte::Vertex& v = model->vertices[vertex];
@@ -149,9 +155,12 @@ glm::dvec3 Placement::view_position(std::uint32_t vertex) const {
 void project(const Placement& placement, const Wanted& wanted, Projected& out) {
   out.resize(placement.model->vertices.size(), wanted);
   switch (placement.transform) {
-    case Transform::gte: return project_gte(placement, wanted, out);
-    case Transform::float32: return project_in<float>(placement, wanted, out);
-    case Transform::float64: return project_in<double>(placement, wanted, out);
+    case Transform::gte:
+      return project_gte(placement, wanted, out);
+    case Transform::float32:
+      return project_in<float>(placement, wanted, out);
+    case Transform::float64:
+      return project_in<double>(placement, wanted, out);
   }
 }
 
@@ -165,7 +174,8 @@ ProjectedPoint project_point(const Placement& placement, glm::dvec3 view) {
     FloatingMap<double>(placement).to_screen(view, out);
     return out;
   }
-  // RTPS with an identity matrix leaves the point as it is; z stands half in the vertex, half in TRZ, to fit 16 bits.
+  // RTPS with an identity matrix leaves the point as it is; z stands half in the vertex, half in TRZ, to fit
+  // 16 bits.
   gte::Registers r = placement.registers;
   r.rt = {};
   for (std::size_t i = 0; i < 3; ++i) r.rt[i][i].raw = 4096;

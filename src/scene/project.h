@@ -1,6 +1,6 @@
 #pragma once
-// Model vertices to the screen, once per frame and instance: through the GTE's batch door, or in float or double for the
-// price of accuracy. What comes out has the same shape either way.
+// Model vertices to the screen, once per frame and instance: through the GTE's batch door, or in float or
+// double for the price of accuracy. What comes out has the same shape either way.
 
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -13,13 +13,13 @@
 
 namespace scene {
 
-/// Where a projected vertex lies. A face whose vertices all lie beyond the same side is not visible; a face with a vertex
-/// that is not projectable goes through the clipper.
+/// Where a projected vertex lies. A face whose vertices all lie beyond the same side is not visible; a face
+/// with a vertex that is not projectable goes through the clipper.
 namespace outcode {
 inline constexpr std::uint8_t left = 1, right = 2, above = 4, below = 8;
 inline constexpr std::uint8_t sides = 15;
-/// Nearer than the near plane, beyond the guard band, or a value that the GTE saturated: its screen position means
-/// nothing.
+/// Nearer than the near plane, beyond the guard band, or a value that the GTE saturated: its screen position
+/// means nothing.
 inline constexpr std::uint8_t unprojectable = 16;
 }  // namespace outcode
 
@@ -33,7 +33,8 @@ struct Wanted {
   bool fog = false;        ///< ir0
 };
 
-/// Structure of arrays, one entry a vertex; arrays that are not wanted stay empty. Memory is kept from frame to frame.
+/// Structure of arrays, one entry a vertex; arrays that are not wanted stay empty. Memory is kept from frame
+/// to frame.
 struct Projected {
   std::vector<gte::ScreenXy> sxy;
   std::vector<std::uint16_t> sz;
@@ -67,16 +68,18 @@ struct ProjectedPoint {
   std::uint32_t z_20_12 = 0;
   std::uint8_t fraction_x = 0, fraction_y = 0;
 };
-/// Projects it as project() would have projected a vertex there. For the GTE it must have whole coordinates: x, y in
-/// s16, z in 0..65535.
+/// Projects it as project() would have projected a vertex there. For the GTE it must have whole coordinates:
+/// x, y in s16, z in 0..65535.
 [[nodiscard]] ProjectedPoint project_point(const Placement& placement, glm::dvec3 view);
 
-/// The colours of one instance in this frame: NCCS or NCDS for the lit, DPCS for the fogged. `fogged`: registers hold
-/// DQA, DQB and FC, and projected.ir0 is there.
+/// The colours of one instance in this frame: NCCS or NCDS for the lit, DPCS for the fogged. `fogged`:
+/// registers hold DQA, DQB and FC, and projected.ir0 is there.
 class Shader {
  public:
-  void shade(const Placement& placement, const Projected& projected, bool fogged, std::vector<gte::Colour>& out);
-  /// For an instance whose normals do not keep their length: new ones, in world space, instead of the model's.
+  void shade(const Placement& placement, const Projected& projected, bool fogged,
+             std::vector<gte::Colour>& out);
+  /// For an instance whose normals do not keep their length: new ones, in world space, instead of the
+  /// model's.
   void use_world_normals(const Model& model, const glm::dmat3& normals_to_world);
   void use_model_normals() { normals_.clear(); }
 

@@ -26,8 +26,12 @@ std::uint32_t otz_of(std::span<const Corner> corners, Key key) {
   const auto nearer = [](const Corner& a, const Corner& b) { return a.sz < b.sz; };
   std::uint32_t otz = 0;
   switch (key) {
-    case Key::nearest: otz = 2U * std::min_element(corners.begin(), corners.end(), nearer)->sz; break;
-    case Key::farthest: otz = 2U * std::max_element(corners.begin(), corners.end(), nearer)->sz; break;
+    case Key::nearest:
+      otz = 2U * std::min_element(corners.begin(), corners.end(), nearer)->sz;
+      break;
+    case Key::farthest:
+      otz = 2U * std::max_element(corners.begin(), corners.end(), nearer)->sz;
+      break;
     case Key::average: {
       std::uint32_t sum = 0;
       for (const auto& c : corners) sum += c.sz;

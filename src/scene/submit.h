@@ -1,6 +1,6 @@
 #pragma once
-// Faces of one instance become primitives: cull, clip, give a key, hand over. Everything that orders or stores
-// primitives is a sink behind this; nothing here knows of tables or memory.
+// Faces of one instance become primitives: cull, clip, give a key, hand over. Everything that orders or
+// stores primitives is a sink behind this; nothing here knows of tables or memory.
 
 #include <array>
 #include <cstdint>
@@ -44,13 +44,13 @@ struct Primitive {
   std::size_t count = 0;
   const PacketMaterial* material = nullptr;
   bool gouraud = false;
-  std::uint32_t otz = 0;     ///< key, 0..65535; bias not added
+  std::uint32_t otz = 0;  ///< key, 0..65535; bias not added
   std::uint32_t instance = 0;
-  std::uint32_t face = 0;    ///< of the scene's mesh; none for lines
+  std::uint32_t face = 0;  ///< of the scene's mesh; none for lines
 };
 
-/// The sort key of depths sz: AVSZ3, AVSZ4 for the average; the nearest or farthest on the same scale. For two (a line)
-/// the average is their sum.
+/// The sort key of depths sz: AVSZ3, AVSZ4 for the average; the nearest or farthest on the same scale. For
+/// two (a line) the average is their sum.
 [[nodiscard]] std::uint32_t otz_of(std::span<const Corner> corners, Key key);
 
 /// NCLIP: twice the area on the screen, above 0 if clockwise.
@@ -70,7 +70,8 @@ struct Submission {
   std::uint32_t instance = 0;
 };
 
-/// Calls sink(const Primitive&) for what is to be drawn, in the order of the faces, then of the lines; counts the rest.
+/// Calls sink(const Primitive&) for what is to be drawn, in the order of the faces, then of the lines; counts
+/// the rest.
 template <class Sink>
 class Submitter {
  public:
@@ -110,7 +111,8 @@ class Submitter {
     const bool second = faces_us(p.corner[2], p.corner[1], p.corner[3], *p.material);
     if (first && second) return emit(p);
     if (!first && !second) return drop(Drop::back_face);
-    // Bent over: one half is seen from behind. NCLIP of the first three corners alone would keep or lose both.
+    // Bent over: one half is seen from behind. NCLIP of the first three corners alone would keep or lose
+    // both.
     p.count = 3;
     if (second) p.corner = {p.corner[2], p.corner[1], p.corner[3], Corner{}};
     emit(p);
@@ -149,8 +151,9 @@ class Submitter {
       for (const auto k : halves[half]) in.add(clip_vertex(face.vertex[k], face.colour[k], face.uv[k]));
       const Beyond beyond = s_.clipper->wholly_beyond(in);
       if (beyond != Beyond::nothing) {
-        why = beyond == Beyond::near_plane ? Drop::near_plane
-                                           : beyond == Beyond::far_plane ? Drop::far_plane : Drop::outside;
+        why = beyond == Beyond::near_plane  ? Drop::near_plane
+              : beyond == Beyond::far_plane ? Drop::far_plane
+                                            : Drop::outside;
         continue;
       }
       s_.clipper->clip(in, clipped_);
@@ -185,7 +188,8 @@ class Submitter {
     return true;
   }
 
-  [[nodiscard]] bool faces_us(const Corner& a, const Corner& b, const Corner& c, const PacketMaterial& m) const {
+  [[nodiscard]] bool faces_us(const Corner& a, const Corner& b, const Corner& c,
+                              const PacketMaterial& m) const {
     const std::int32_t area = screen_area(a.sxy, b.sxy, c.sxy);
     return m.double_sided ? area != 0 : s_.mirrored ? area < 0 : area > 0;
   }
@@ -251,6 +255,7 @@ class Submitter {
 /// The packet of a polygon, its colours and coordinates filled in.
 [[nodiscard]] ot::Polygon polygon_of(const Primitive& p);
 [[nodiscard]] ot::Line line_of(const Primitive& p);
-[[nodiscard]] ot::DepthAnnotation depth_of(const Primitive& p, std::uint8_t fraction_mask, bool has_fractions);
+[[nodiscard]] ot::DepthAnnotation depth_of(const Primitive& p, std::uint8_t fraction_mask,
+                                           bool has_fractions);
 
 }  // namespace scene

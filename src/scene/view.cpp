@@ -37,7 +37,8 @@ View view_of(const Camera& camera, int width, int height, double units) {
   view.position = glm::dvec3(camera.position);
   const glm::dmat3 to_world{glm::dvec3(camera.orientation[0]), glm::dvec3(camera.orientation[1]),
                             glm::dvec3(camera.orientation[2])};
-  const glm::dmat3 axes{glm::dvec3(view.projection.stretch_x, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1)};
+  const glm::dmat3 axes{glm::dvec3(view.projection.stretch_x, 0, 0), glm::dvec3(0, -1, 0),
+                        glm::dvec3(0, 0, -1)};
   view.turn = axes * glm::transpose(to_world);
   return view;
 }
@@ -69,7 +70,8 @@ bool set_transform(gte::Registers& registers, const Affine& map, const Projectio
 }
 
 void set_depth_cue(gte::Registers& registers, const DepthCue& cue, const View& view) {
-  // IR0 = far/(far-near) * (1 - near/z), z in GTE units, and q = H * 65536 / z is what DQA is multiplied with.
+  // IR0 = far/(far-near) * (1 - near/z), z in GTE units, and q = H * 65536 / z is what DQA is multiplied
+  // with.
   const double near_z = cue.near_z * view.units;
   const double far_z = cue.far_z * view.units;
   const double slope = far_z > near_z ? far_z / (far_z - near_z) : 1;
@@ -97,8 +99,8 @@ void set_lights(gte::Registers& registers, const World& world, const glm::dmat3&
     }
   }
   for (int c = 0; c < 3; ++c)
-    registers.bk[static_cast<std::size_t>(c)].raw = round_saturated<std::int32_t>(std::clamp(
-        static_cast<double>(world.ambient[c]), 0.0, 8.0) * 4096);
+    registers.bk[static_cast<std::size_t>(c)].raw =
+        round_saturated<std::int32_t>(std::clamp(static_cast<double>(world.ambient[c]), 0.0, 8.0) * 4096);
 }
 
 Box3 bounds_of(const Mesh& mesh) {
@@ -122,7 +124,8 @@ double choose_units(const World& world) {
     if (instance.mesh >= world.meshes.size()) continue;
     const Box3 box = bounds_of(world.meshes[instance.mesh]);
     for (int corner = 0; corner < 8; ++corner) {
-      const glm::vec4 p((corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+      const glm::vec4 p((corner & 1) != 0 ? box.high.x : box.low.x,
+                        (corner & 2) != 0 ? box.high.y : box.low.y,
                         (corner & 4) != 0 ? box.high.z : box.low.z, 1.0);
       const glm::dvec3 placed(instance.model * p);
       if (!is_finite(placed)) continue;

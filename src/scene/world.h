@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "scene/knobs.h"  // before `none`, which GCC would find shadowed by the `none` of one of its enumerations
+
 namespace scene {
 
 inline constexpr std::uint32_t none = 0xffffffff;  ///< "no index" wherever an index may be missing

@@ -1,0 +1,143 @@
+#include "scene/lists.h"
+
+#include <algorithm>
+#include <array>
+
+#include "ot/gp0.h"
+
+namespace scene {
+namespace {
+
+constexpr std::uint32_t environment_address = 0x10000;
+constexpr std::uint32_t table_begin = environment_address + 64;
+
+std::uint32_t node_bytes(std::size_t words) { return static_cast<std::uint32_t>(4 + 4 * words); }
+
+}  // namespace
+
+std::uint32_t BucketRule::of(const Primitive& p) const {
+  const std::int64_t bucket = (std::int64_t{p.otz} * length >> 16) + bias + p.material->bias * bias_step;
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(bucket, 0, length - 1));
+}
+
+std::size_t encode(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out) {
+  std::size_t n = 0;
+  const PacketMaterial& m = *p.material;
+  if (m.texture != nullptr && style.windows) out[n++] = m.texture->window;
+  if (m.texture == nullptr && m.semi_transparent) out[n++] = style.draw_mode | m.texpage;
+  if (p.count == 2) return n + ot::encode(line_of(p), out.subspan(n));
+  return n + ot::encode(polygon_of(p), out.subspan(n));
+}
+
+std::size_t encode_annotation(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out) {
+  if (!style.depth || p.count == 2) return 0;
+  return ot::encode(depth_of(p, style.fraction_mask, style.fractions), out);
+}
+
+void BucketSizes::operator()(const Primitive& p) {
+  std::array<std::uint32_t, 16> words{};
+  std::uint32_t bytes = node_bytes(encode(p, style_, words));
+  if (const auto n = encode_annotation(p, style_, words); n > 0) bytes += node_bytes(n);
+  bytes_[rule_.of(p)] += bytes;
+}
+
+Result<std::vector<BucketRange>> BucketSizes::ranges(std::uint32_t available) const {
+  std::vector<BucketRange> out;
+  std::uint64_t used = 0;
+  std::uint32_t last = rule_.length - 1;
+  for (std::uint32_t b = rule_.length; b-- > 0;) {
+    if (bytes_[b] > available) {
+      return fail("bucket " + std::to_string(b) + " alone needs " + std::to_string(bytes_[b]) +
+                      " bytes of main RAM, " + std::to_string(available) + " are available: use more buckets",
+                  Exit::failed);
+    }
+    if (used + bytes_[b] > available) {
+      out.push_back({b + 1, last});
+      last = b;
+      used = 0;
+    }
+    used += bytes_[b];
+  }
+  out.push_back({0, last});
+  return out;
+}
+
+std::uint32_t ListBuilder::room(const ot::MainRam& ram, std::uint32_t table_length) {
+  return ram.size_bytes() - table_begin - 4 * table_length;
+}
+
+void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule,
+                        const PacketStyle& style, const BucketRange& range,
+                        std::span<const std::uint32_t> environment) {
+  ram_ = &ram;
+  rule_ = rule;
+  style_ = style;
+  range_ = range;
+  sorts_ = knobs.visibility == Visibility::sorted;
+  order_ = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
+  full_ = false;
+  primitives_ = words_ = 0;
+  sorted_.clear();
+  if (sorts_) {
+    table_.reset();
+  } else {
+    if (!table_ || table_->memory().data() != ram.words().data() || table_->length() != rule.length ||
+        table_->order() != order_)
+      table_.emplace(ram, table_begin, rule.length, order_);
+    table_->clear();
+  }
+  arena_begin_ = table_begin + 4 * table_length();
+  arena_.emplace(ram, arena_begin_, ram.size_bytes());
+  ot::PacketArena first(ram, environment_address, table_begin);
+  first.push(environment);
+}
+
+void ListBuilder::operator()(const Primitive& p) {
+  const std::uint32_t bucket = rule_.of(p);
+  if (bucket < range_.first || bucket > range_.last || full_) return;
+  std::array<std::uint32_t, 16> words;
+  std::optional<std::uint32_t> note;
+  const std::size_t note_words = encode_annotation(p, style_, words);
+  if (note_words > 0) {
+    note = arena_->push(std::span(words).first(note_words));
+    full_ = !note;
+  }
+  const std::size_t n = encode(p, style_, words);
+  const auto node = full_ ? std::nullopt : arena_->push(std::span(words).first(n));
+  if (!node) {
+    full_ = true;
+    return;
+  }
+  if (note) ot::link(*ram_, *note, *node);
+  ++primitives_;
+  words_ += static_cast<std::uint32_t>(note_words + n);
+  if (sorts_) {
+    sorted_.push_back({bucket, note.value_or(*node), *node});
+  } else {
+    table_->insert(bucket, note.value_or(*node), *node);
+  }
+}
+
+void ListBuilder::end() {
+  std::uint32_t from = environment_address;
+  if (!sorts_) {
+    ot::link(*ram_, from, table_->head());
+    return;
+  }
+  if (order_ == ot::Order::lifo) std::reverse(sorted_.begin(), sorted_.end());
+  std::stable_sort(sorted_.begin(), sorted_.end(),
+                   [](const Sorted& a, const Sorted& b) { return a.key > b.key; });
+  for (const auto& s : sorted_) {
+    ot::link(*ram_, from, s.first);
+    from = s.last;
+  }
+  ot::link(*ram_, from, ot::tag::end);
+}
+
+std::uint32_t ListBuilder::head() const { return environment_address; }
+std::uint32_t ListBuilder::table_address() const { return table_begin; }
+std::uint32_t ListBuilder::ram_bytes() const {
+  return arena_begin_ - environment_address + arena_->used_bytes();
+}
+
+}  // namespace scene

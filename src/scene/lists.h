@@ -1,0 +1,104 @@
+#pragma once
+// Primitives into lists in main RAM. A frame that does not fit is cut into ranges of buckets, each a list of
+// its own, drawn far to near.
+//
+//     10000h  environment: draw area, offset, mask, fill      (the first 64 KiB are the console's kernel)
+//             ordering table, one word a bucket
+//             packets: [annotation node ->] primitive node
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "ot/main_ram.h"
+#include "ot/ordering_table.h"
+#include "ot/packet.h"
+#include "scene/frame.h"
+#include "scene/knobs.h"
+#include "scene/submit.h"
+
+namespace scene {
+
+/// What every packet of a frame has in common.
+struct PacketStyle {
+  bool windows = false;               ///< textured primitives set their texture window
+  bool depth = false;                 ///< annotation nodes with depths
+  bool fractions = false;             ///< and with fractions,
+  std::uint8_t fraction_mask = 0xff;  ///< of which these bits count
+  std::uint32_t draw_mode = 0;  ///< E1h word without page and blend: dither, draw to the displayed field
+};
+
+/// Bucket (or sort key) of a primitive: 0..length-1, far is high.
+struct BucketRule {
+  std::uint32_t length = 1;
+  std::int64_t bias = 0;
+  std::int64_t bias_step = 1;  ///< of a material's bias
+  [[nodiscard]] std::uint32_t of(const Primitive& p) const;
+};
+
+/// Words of a primitive's own node; at most 14.
+inline constexpr std::size_t most_primitive_words = 14;
+std::size_t encode(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out);
+/// Words of its annotation node; at most 14.
+std::size_t encode_annotation(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out);
+
+/// Buckets first..last, both included.
+struct BucketRange {
+  std::uint32_t first = 0, last = 0;
+};
+
+/// Counts the bytes of every bucket, and cuts them into ranges that fit.
+class BucketSizes {
+ public:
+  BucketSizes(const BucketRule& rule, const PacketStyle& style)
+      : rule_(rule), style_(style), bytes_(rule.length) {}
+  void operator()(const Primitive& p);
+  /// Ranges far to near, each at most `available` bytes. Error: the number of a bucket that is larger than
+  /// that.
+  [[nodiscard]] Result<std::vector<BucketRange>> ranges(std::uint32_t available) const;
+
+ private:
+  BucketRule rule_;
+  PacketStyle style_;
+  std::vector<std::uint32_t> bytes_;
+};
+
+/// The list in RAM. One object lives through all frames, so that its memory does, too.
+class ListBuilder {
+ public:
+  /// Clears the table and writes the environment node.
+  void begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule, const PacketStyle& style,
+             const BucketRange& range, std::span<const std::uint32_t> environment);
+  void operator()(const Primitive& p);
+  /// Links everything; afterwards the list can be walked from head().
+  void end();
+
+  [[nodiscard]] bool is_full() const { return full_; }
+  [[nodiscard]] std::uint32_t head() const;
+  [[nodiscard]] std::uint32_t table_address() const;
+  [[nodiscard]] std::uint32_t table_length() const { return sorts_ ? 0 : rule_.length; }
+  [[nodiscard]] std::uint32_t primitives() const { return primitives_; }
+  [[nodiscard]] std::uint32_t words() const { return words_; }
+  [[nodiscard]] std::uint32_t ram_bytes() const;
+  /// Bytes for packets in a RAM of that size.
+  [[nodiscard]] static std::uint32_t room(const ot::MainRam& ram, std::uint32_t table_length);
+
+ private:
+  struct Sorted {
+    std::uint32_t key, first, last;
+  };
+  ot::MainRam* ram_ = nullptr;
+  std::optional<ot::OrderingTable> table_;
+  std::optional<ot::PacketArena> arena_;
+  std::vector<Sorted> sorted_;
+  BucketRule rule_;
+  PacketStyle style_;
+  BucketRange range_;
+  ot::Order order_ = ot::Order::lifo;
+  bool sorts_ = false, full_ = false;
+  std::uint32_t arena_begin_ = 0, primitives_ = 0, words_ = 0;
+};
+
+}  // namespace scene
