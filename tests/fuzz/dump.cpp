@@ -1,0 +1,15 @@
+// Any bytes as a GPU dump: refused with an offset, or replayed whole.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "gpu/dump.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto dump = gpu::parse_dump(std::as_bytes(std::span(data, size)));
+  if (!dump) return 0;
+  gpu::Gpu gpu;
+  (void)gpu::replay(*dump, gpu);
+  return 0;
+}

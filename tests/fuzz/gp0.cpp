@@ -1,0 +1,33 @@
+// Any words on both ports: bit 0 of the first byte asks for the z-buffer, bit 1 for a trace with history; then every
+// word is preceded by a byte that chooses GP0, GP1 or a read.
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+#include "gpu/gpu.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  gpu::Gpu gpu;
+  gpu::Trace trace;
+  if ((data[0] & 1) != 0) gpu.set_depth(gpu::DepthOptions{});
+  if ((data[0] & 2) != 0) gpu.set_trace(&trace);
+  trace.keep_history = size < 256;  // a large fill makes half a million events
+  gpu.begin_frame();
+  for (std::size_t at = 1; at + 5 <= size; at += 5) {
+    std::uint32_t word = 0;
+    std::memcpy(&word, data + at + 1, sizeof word);
+    const auto port = data[at] & 7;
+    if (port == 6) {
+      gpu.gp1(word);
+    } else if (port == 7) {
+      (void)gpu.read();
+    } else {
+      gpu.gp0(word);
+    }
+  }
+  (void)gpu.end_frame();
+  (void)gpu.status();
+  return 0;
+}
