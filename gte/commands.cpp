@@ -27,7 +27,7 @@ bool cannot_overflow(const Offsets& t) {
   const auto inside = [](std::int32_t v) {
     return static_cast<std::uint32_t>(v) + (0x80000000u - margin) < 0u - 2 * margin;
   };
-  return inside(t[0]) & inside(t[1]) & inside(t[2]);
+  return (inside(t[0]) & int{inside(t[1])} & int{inside(t[2])}) != 0;
 }
 
 /// Translation + matrix * vector, every partial sum checked.

@@ -142,86 +142,86 @@ std::uint64_t Dma::move(std::uint32_t number, DmaPort& port) {
 }
 
 /// Each entry links to the word below it, the last one ends the list. Below address 0 there is no RAM.
-std::uint64_t Dma::clear_table(Channel& otc) {
-  const auto count = or_64k(block::Words::get(otc.bcr));
-  auto address = otc.madr & ~3U;
+std::uint64_t Dma::clear_table(Channel& c) {
+  const auto count = or_64k(block::Words::get(c.bcr));
+  auto address = c.madr & ~3U;
   for (std::uint32_t k = 0; k < count; ++k) {
     if (is_outside(address)) {
-      bus_error(otc);
+      bus_error(c);
       return k + 1;
     }
     const auto below = (address - 4) & (ram_.size_bytes() - 1);
     ram_.write(address, k == count - 1 ? tag::end : below);
     address = (address - 4) & address_mask;
   }
-  complete(otc);
+  complete(c);
   return count;
 }
 
 /// The end is tested after the payload of the node that carries it.
-std::uint64_t Dma::send_node(Channel& gpu, DmaPort& port) {
-  if (gpu.madr == tag::end) {
-    complete(gpu);
+std::uint64_t Dma::send_node(Channel& c, DmaPort& port) {
+  if (c.madr == tag::end) {
+    complete(c);
     return 1;
   }
-  if (is_outside(gpu.madr)) {
-    bus_error(gpu);
+  if (is_outside(c.madr)) {
+    bus_error(c);
     return 1;
   }
-  const auto word = ram_.read(gpu.madr);
+  const auto word = ram_.read(c.madr);
   const auto length = tag::Length::get(word);
   std::array<std::uint32_t, tag::Length::max> payload;
-  for (std::uint32_t n = 0; n < length; ++n) payload[n] = ram_.read(gpu.madr + 4 * (n + 1));
+  for (std::uint32_t n = 0; n < length; ++n) payload[n] = ram_.read(c.madr + 4 * (n + 1));
   if (length > 0) port.gp0(std::span(payload).first(length));
-  gpu.madr = tag::Next::get(word);
-  if (gpu.madr == tag::end) complete(gpu);
+  c.madr = tag::Next::get(word);
+  if (c.madr == tag::end) complete(c);
   return 1 + length;
 }
 
-std::uint64_t Dma::move_block(Channel& gpu, DmaPort& port) {
-  const auto words = or_64k(block::Words::get(gpu.bcr));
-  if (move_words(gpu, port, words)) {
-    const auto blocks = block::Blocks::get(gpu.bcr) - 1;  // 0 counts as 10000h: wraps to FFFFh
-    gpu.bcr = block::Blocks::set(gpu.bcr, blocks);
-    if (block::Blocks::get(gpu.bcr) == 0) complete(gpu);
+std::uint64_t Dma::move_block(Channel& c, DmaPort& port) {
+  const auto words = or_64k(block::Words::get(c.bcr));
+  if (move_words(c, port, words)) {
+    const auto blocks = block::Blocks::get(c.bcr) - 1;  // 0 counts as 10000h: wraps to FFFFh
+    c.bcr = block::Blocks::set(c.bcr, blocks);
+    if (block::Blocks::get(c.bcr) == 0) complete(c);
   }
   return words;
 }
 
 /// MADR and BCR stay, unless chopping lets the CPU see them between windows.
-std::uint64_t Dma::move_burst(Channel& gpu, DmaPort& port) {
-  const auto words = or_64k(block::Words::get(gpu.bcr));
-  if (control::Chopping::get(gpu.chcr) == 0) {
-    const auto start = gpu.madr;
-    if (move_words(gpu, port, words)) {
-      gpu.madr = start;
-      complete(gpu);
+std::uint64_t Dma::move_burst(Channel& c, DmaPort& port) {
+  const auto words = or_64k(block::Words::get(c.bcr));
+  if (control::Chopping::get(c.chcr) == 0) {
+    const auto start = c.madr;
+    if (move_words(c, port, words)) {
+      c.madr = start;
+      complete(c);
     }
     return words;
   }
-  const auto window = std::min(words, std::uint32_t{1} << control::ChopWindow::get(gpu.chcr));
-  if (move_words(gpu, port, window)) {
-    gpu.bcr = block::Words::set(gpu.bcr, words - window);
-    if (words == window) complete(gpu);
+  const auto window = std::min(words, std::uint32_t{1} << control::ChopWindow::get(c.chcr));
+  if (move_words(c, port, window)) {
+    c.bcr = block::Words::set(c.bcr, words - window);
+    if (words == window) complete(c);
   }
   return window;
 }
 
 /// False: an address was outside RAM, and the transfer has ended there.
-bool Dma::move_words(Channel& gpu, DmaPort& port, std::uint32_t count) {
-  const bool to_device = control::ToDevice::get(gpu.chcr) != 0;
+bool Dma::move_words(Channel& c, DmaPort& port, std::uint32_t count) {
+  const bool to_device = control::ToDevice::get(c.chcr) != 0;
   for (std::uint32_t n = 0; n < count; ++n) {
-    if (is_outside(gpu.madr)) {
-      bus_error(gpu);
+    if (is_outside(c.madr)) {
+      bus_error(c);
       return false;
     }
     if (to_device) {
-      const std::array word{ram_.read(gpu.madr)};
+      const std::array word{ram_.read(c.madr)};
       port.gp0(word);
     } else {
-      ram_.write(gpu.madr, port.read());
+      ram_.write(c.madr, port.read());
     }
-    gpu.madr = stepped(gpu.chcr, gpu.madr, 1);
+    c.madr = stepped(c.chcr, c.madr, 1);
   }
   return true;
 }

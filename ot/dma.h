@@ -98,11 +98,11 @@ class Dma {
   [[nodiscard]] Channel* channel_at(std::uint32_t address);
   [[nodiscard]] bool can_move(std::uint32_t number, DmaPort& port) const;
   std::uint64_t move(std::uint32_t number, DmaPort& port);
-  std::uint64_t clear_table(Channel& otc);
-  std::uint64_t send_node(Channel& gpu, DmaPort& port);
-  std::uint64_t move_block(Channel& gpu, DmaPort& port);
-  std::uint64_t move_burst(Channel& gpu, DmaPort& port);
-  bool move_words(Channel& gpu, DmaPort& port, std::uint32_t count);
+  std::uint64_t clear_table(Channel& c);
+  std::uint64_t send_node(Channel& c, DmaPort& port);
+  std::uint64_t move_block(Channel& c, DmaPort& port);
+  std::uint64_t move_burst(Channel& c, DmaPort& port);
+  bool move_words(Channel& c, DmaPort& port, std::uint32_t count);
   void complete(Channel& channel);
   void bus_error(Channel& channel);
   void set_dicr(std::uint32_t word);

@@ -7,7 +7,7 @@
 #include "gpu/dump.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto dump = gpu::parse_dump(std::as_bytes(std::span(data, size)));
+  auto dump = gpu::parse_dump(std::as_bytes(std::span(data, size)));
   if (!dump) return 0;
   gpu::Gpu gpu;
   (void)gpu::replay(*dump, gpu);
