@@ -64,9 +64,10 @@ InversePlane::Estimate InversePlane::estimate(int x, int y) const {
   return {sum / area, magnitude / area * slack_units};
 }
 
-std::strong_ordering compare_nearness_exactly(const InversePlane& a, const InversePlane& b, int x, int y) {
+std::strong_ordering compare_nearness_exactly(const InversePlane& a, int ax, int ay, const InversePlane& b,
+                                              int bx, int by) {
   assert(!a.is_degenerate() && !b.is_degenerate());
-  const auto numerator = [&](const InversePlane& plane) {
+  const auto numerator = [](const InversePlane& plane, int x, int y) {
     const auto w = plane.weights(x, y);
     const auto& [c0, c1, c2] = plane.corners_;
     return Wide{w[0]} * c1.z * c2.z + Wide{w[1]} * c0.z * c2.z + Wide{w[2]} * c0.z * c1.z;
@@ -75,21 +76,21 @@ std::strong_ordering compare_nearness_exactly(const InversePlane& a, const Inver
     const auto& [c0, c1, c2] = plane.corners_;
     return Wide{plane.area_} * c0.z * c1.z * c2.z;
   };
-  const Wide left = numerator(a) * denominator(b), right = numerator(b) * denominator(a);
+  const Wide left = numerator(a, ax, ay) * denominator(b), right = numerator(b, bx, by) * denominator(a);
   return left < right ? std::strong_ordering::less
                       : (left == right ? std::strong_ordering::equal : std::strong_ordering::greater);
 }
 
-std::strong_ordering compare_nearness(const InversePlane& a, const InversePlane& b, int x, int y,
-                                      DecisionCounts& counts) {
-  const auto near_a = a.estimate(x, y), near_b = b.estimate(x, y);
+std::strong_ordering compare_nearness(const InversePlane& a, int ax, int ay, const InversePlane& b, int bx,
+                                      int by, DecisionCounts& counts) {
+  const auto near_a = a.estimate(ax, ay), near_b = b.estimate(bx, by);
   const double difference = near_a.value - near_b.value;
   if (std::abs(difference) > near_a.slack + near_b.slack) {
     ++counts.filtered;
     return difference < 0 ? std::strong_ordering::less : std::strong_ordering::greater;
   }
   ++counts.exact;
-  return compare_nearness_exactly(a, b, x, y);
+  return compare_nearness_exactly(a, ax, ay, b, bx, by);
 }
 
 }  // namespace inspect

@@ -50,12 +50,11 @@ class InversePlane {
   };
   [[nodiscard]] Estimate estimate(int x, int y) const;
 
-  /// greater: a is nearer than b at the sample point of pixel x, y; equal: the very same depth.
-  /// |x|, |y| <= 4096; neither is degenerate.
-  friend std::strong_ordering compare_nearness(const InversePlane& a, const InversePlane& b, int x, int y,
-                                               DecisionCounts& counts);
-  friend std::strong_ordering compare_nearness_exactly(const InversePlane& a, const InversePlane& b, int x,
-                                                       int y);
+  /// 1/z of a at pixel ax, ay against 1/z of b at pixel bx, by. See the free functions.
+  friend std::strong_ordering compare_nearness(const InversePlane& a, int ax, int ay, const InversePlane& b,
+                                               int bx, int by, DecisionCounts& counts);
+  friend std::strong_ordering compare_nearness_exactly(const InversePlane& a, int ax, int ay,
+                                                       const InversePlane& b, int bx, int by);
 
  private:
   [[nodiscard]] std::array<std::int64_t, 3> weights(int x, int y) const;
@@ -65,10 +64,22 @@ class InversePlane {
   std::int64_t area_ = 0;  ///< D > 0 unless degenerate: the corners are put in that order
 };
 
-std::strong_ordering compare_nearness(const InversePlane& a, const InversePlane& b, int x, int y,
-                                      DecisionCounts& counts);
+/// greater: a at pixel ax, ay is nearer than b at pixel bx, by (usually the same: they differ where VRAM
+/// wraps); equal: the very same depth. Pixel coordinates within +-4096; neither plane is degenerate.
+std::strong_ordering compare_nearness(const InversePlane& a, int ax, int ay, const InversePlane& b, int bx,
+                                      int by, DecisionCounts& counts);
 
 /// The same without the filter: what the filter is tested against.
-std::strong_ordering compare_nearness_exactly(const InversePlane& a, const InversePlane& b, int x, int y);
+std::strong_ordering compare_nearness_exactly(const InversePlane& a, int ax, int ay, const InversePlane& b,
+                                              int bx, int by);
+
+inline std::strong_ordering compare_nearness(const InversePlane& a, const InversePlane& b, int x, int y,
+                                             DecisionCounts& counts) {
+  return compare_nearness(a, x, y, b, x, y, counts);
+}
+inline std::strong_ordering compare_nearness_exactly(const InversePlane& a, const InversePlane& b, int x,
+                                                     int y) {
+  return compare_nearness_exactly(a, x, y, b, x, y);
+}
 
 }  // namespace inspect

@@ -321,7 +321,8 @@ TEST_SUITE("gpu") {
           break;
       }
     };
-    for (int n = 0; n < 300000; ++n) feed((static_cast<std::uint32_t>(random()) & 0xff00f000) | 0x00010001);  // small sizes
+    for (int n = 0; n < 300000; ++n)
+      feed((static_cast<std::uint32_t>(random()) & 0xff00f000) | 0x00010001);  // small sizes
     while (stream.is_open()) feed(ot::gp0::line::terminator);
     for (std::size_t kind = 0; kind < seen.size(); ++kind) {
       CAPTURE(kind);

@@ -12,7 +12,8 @@ std::vector<std::uint32_t> packet(const inspect::Triangle& t) {
   ot::Polygon p{.gouraud = true, .textured = true, .semi_transparent = true};
   for (std::size_t i = 0; i < 3; ++i) {
     p.xy[i] = {static_cast<std::int16_t>(t[i].x >> 8), static_cast<std::int16_t>(t[i].y >> 8)};
-    p.rgb[i] = {static_cast<std::uint8_t>(t[i].z), static_cast<std::uint8_t>(40 * i), static_cast<std::uint8_t>(t[i].x)};
+    p.rgb[i] = {static_cast<std::uint8_t>(t[i].z), static_cast<std::uint8_t>(40 * i),
+                static_cast<std::uint8_t>(t[i].x)};
     p.uv[i] = {static_cast<std::uint8_t>(t[i].y >> 7), static_cast<std::uint8_t>(t[i].z >> 5)};
   }
   p.texpage = ot::texpage_of(640, 0, 1, 2);
@@ -24,9 +25,11 @@ std::vector<std::uint32_t> packet(const inspect::Triangle& t) {
 gpu::Gpu prepared() {
   gpu::Gpu gpu;
   for (int y = 0; y < 256; ++y) {
-    for (int x = 0; x < 256; ++x) gpu.vram().at(640 + x, y) = static_cast<std::uint16_t>(0x8000 | (x * 131 + y * 71));
+    for (int x = 0; x < 256; ++x)
+      gpu.vram().at(640 + x, y) = static_cast<std::uint16_t>(0x8000 | (x * 131 + y * 71));
   }
-  for (const std::uint32_t word : {0xe1000200U, 0xe3000000U, 0xe403fc3fU, 0xe5010008U}) gpu.gp0(word);  // offset 8,32
+  for (const std::uint32_t word : {0xe1000200U, 0xe3000000U, 0xe403fc3fU, 0xe5010008U})
+    gpu.gp0(word);  // offset 8,32
   return gpu;
 }
 

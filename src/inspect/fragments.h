@@ -1,0 +1,70 @@
+#pragma once
+// A traced frame, turned from "in the order made" to "per pixel": the fragments of polygons with depth, which
+// is all that truth looks at. Everything else that writes is a layer.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gpu/trace.h"
+#include "inspect/depth_order.h"
+
+namespace inspect {
+
+inline constexpr std::uint32_t nobody = 0xffffffff;  ///< "no draw" wherever a draw number stands
+
+/// One polygon at one pixel.
+struct Fragment {
+  std::uint32_t draw = 0;    ///< index into Trace::draws
+  std::uint32_t depth = 0;   ///< z-buffer: the key it was tested with (nearer is smaller)
+  std::uint16_t colour = 0;  ///< before blending
+  std::uint8_t half = 0;     ///< 1: second triangle of a quad
+  bool blends = false;       ///< lets through what is behind it
+  bool rejected = false;     ///< lost the depth test
+};
+
+/// The planes of 1/z of all triangles of a trace.
+class Surfaces {
+ public:
+  /// The trace must outlive it.
+  explicit Surfaces(const gpu::Trace& trace);
+
+  /// greater: fragment a is nearer than b; both at VRAM pixel y * 1024 + x.
+  std::strong_ordering compare(const Fragment& a, const Fragment& b, std::uint32_t pixel);
+  /// The fragment's depth in view-space units, for people; not exact.
+  [[nodiscard]] double depth(const Fragment& fragment, std::uint32_t pixel) const;
+
+  DecisionCounts decisions;
+
+ private:
+  struct Surface {
+    InversePlane plane;
+    int left = 0, top = 0;  // of the bounding box: which of the samples that wrap to a pixel is meant
+  };
+  struct Sample {
+    int x, y;
+  };
+  [[nodiscard]] const Surface& of(const Fragment& f) const { return surfaces_[first_[f.draw] + f.half]; }
+  [[nodiscard]] static Sample sample(const Surface& surface, std::uint32_t pixel);
+
+  std::vector<std::uint32_t> first_;  // draw -> its first triangle in surfaces_
+  std::vector<Surface> surfaces_;
+};
+
+/// The fragments of every VRAM pixel, in the order in which they were drawn.
+class Fragments {
+ public:
+  /// Needs a trace that kept its history.
+  explicit Fragments(const gpu::Trace& trace);
+
+  [[nodiscard]] std::span<const Fragment> at(std::uint32_t pixel) const {
+    return std::span(fragments_).subspan(first_[pixel], first_[pixel + 1] - first_[pixel]);
+  }
+  [[nodiscard]] std::size_t size() const { return fragments_.size(); }
+
+ private:
+  std::vector<std::size_t> first_;  // pixel -> its first fragment; one more at the end
+  std::vector<Fragment> fragments_;
+};
+
+}  // namespace inspect

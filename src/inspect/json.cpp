@@ -1,0 +1,121 @@
+#include "inspect/json.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+namespace inspect {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json by_cause(const std::array<std::uint64_t, cause_count>& counts) {
+  Json object = Json::object();
+  for (std::size_t c = 0; c < cause_count; ++c) object[std::string(cause_names[c])] = counts[c];
+  return object;
+}
+
+Json number_or_null(std::uint32_t value) { return value == nobody ? Json(nullptr) : Json(value); }
+static_assert(nobody == gpu::no_bucket);
+
+Json pairs(const Report& report) {
+  Json list = Json::array();
+  for (const WrongPair& pair : report.pairs) {
+    list.push_back({{"winner", number_or_null(pair.winner.draw)},
+                    {"owner", number_or_null(pair.owner.draw)},
+                    {"cause", pair.has_cause ? Json(name(pair.cause)) : Json(nullptr)},
+                    {"pixels", pair.pixels},
+                    {"winner_bucket", number_or_null(pair.winner.bucket)},
+                    {"owner_bucket", number_or_null(pair.owner.bucket)},
+                    {"winner_depth", pair.winner_depth},
+                    {"owner_depth", pair.owner_depth},
+                    {"example",
+                     {static_cast<int>(pair.example % gpu::Vram::width) - report.picture.x,
+                      static_cast<int>(pair.example / gpu::Vram::width) - report.picture.y}}});
+  }
+  return list;
+}
+
+Json lint(const Report& report) {
+  Json list = Json::array();
+  for (const LintItem& item : report.lint)
+    list.push_back({{"kind", item.kind}, {"at", item.at}, {"text", item.text}});
+  return list;
+}
+
+Json buckets(const BucketCensus& b) {
+  if (!b.known) return "not available";
+  return {{"used", b.used},
+          {"tied", b.tied},
+          {"largest", b.largest},
+          {"largest_bucket", b.largest_bucket},
+          {"histogram", b.histogram}};
+}
+
+void header(Json& json, const Report& report) {
+  json["schema"] = "otter.inspect/1";
+  json["scene"] = report.scene;
+  json["frame"] = report.frame;
+  json["width"] = report.picture.width;
+  json["height"] = report.picture.height;
+}
+
+void counts(Json& json, const Report& report) {
+  json["pixels_drawn"] = report.pixels_drawn;
+  json["wrong_pixels"] = report.wrong_pixels();
+  json["causes"] = by_cause(report.causes);
+  json["raw_causes"] = by_cause(report.raw_causes);
+}
+
+void details(Json& json, const Report& report) {
+  json["pairs"] = pairs(report);
+  json["lint"] = lint(report);
+  json["polygons_judged"] = report.polygons_judged;
+  json["polygons_without_depth"] = report.polygons_without_depth;
+  json["samples"] = report.fragments;
+  json["comparisons"] = {{"filtered", report.decisions.filtered}, {"exact", report.decisions.exact}};
+  json["buckets"] = buckets(report.buckets);
+}
+
+// Names of files may hold any bytes; they must not make the output fail.
+std::string dump(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace
+
+std::string to_json(const Report& report) {
+  Json json;
+  header(json, report);
+  counts(json, report);
+  details(json, report);
+  return dump(json);
+}
+
+std::string to_json(const std::vector<Report>& reports) {
+  if (reports.size() == 1) return to_json(reports.front());
+  Json json, frames = Json::array();
+  std::uint64_t drawn = 0, wrong = 0;
+  std::array<std::uint64_t, cause_count> causes{}, raw{};
+  for (const Report& report : reports) {
+    drawn += report.pixels_drawn;
+    wrong += report.wrong_pixels();
+    for (std::size_t c = 0; c < cause_count; ++c) {
+      causes[c] += report.causes[c];
+      raw[c] += report.raw_causes[c];
+    }
+    Json frame;
+    frame["frame"] = report.frame;
+    counts(frame, report);
+    details(frame, report);
+    frames.push_back(std::move(frame));
+  }
+  if (!reports.empty()) header(json, reports.front());
+  json["pixels_drawn"] = drawn;
+  json["wrong_pixels"] = wrong;
+  json["causes"] = by_cause(causes);
+  json["raw_causes"] = by_cause(raw);
+  json["pairs"] = Json::array();
+  json["lint"] = Json::array();
+  json["frames"] = std::move(frames);
+  return dump(json);
+}
+
+}  // namespace inspect

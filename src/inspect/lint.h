@@ -1,0 +1,45 @@
+#pragma once
+// What is wrong with a list before anything is drawn, and why a draw left no pixel.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/trace.h"
+#include "ot/main_ram.h"
+
+namespace inspect {
+
+struct LintItem {
+  std::string kind;  ///< "linked-twice", "bucket-range", ...: one word, stable
+  std::string at;    ///< "123000h", "draw 12", or empty
+  std::string text;  ///< one clause for people
+  bool operator==(const LintItem&) const = default;
+};
+
+/// Where an ordering table lies in RAM.
+struct TableRange {
+  std::uint32_t address = 0, length = 0;
+};
+
+/// Lints a list in RAM without drawing it:
+///   loop, outside-ram, payload-past-end   the walk does not end well
+///   linked-twice                          two tags link to one (a packet inserted twice)
+///   unreachable-bucket                    entries of the table that the list skips
+///   overlap                               packets, or a packet and the table, share words
+///   bucket-range                          a packet hangs on a word beside the table: inserted below 0, or at
+///   or above
+///                                         the length (programs that compare with > where >= is needed)
+/// Without a table the last two kinds that need one read "not available".
+std::vector<LintItem> lint_list(const ot::MainRam& ram, std::uint32_t head,
+                                const std::optional<TableRange>& table);
+
+/// What is wrong with a bucket number that is about to be inserted; nothing if it is below `length`.
+std::optional<LintItem> lint_bucket(std::int64_t bucket, std::uint32_t length);
+
+/// Draws that wrote no pixel, one item per reason with their number and the first of them: size-rule,
+/// no-area, outside-area, not-seen (transparent texels, masked or behind).
+std::vector<LintItem> lint_draws(const gpu::Trace& trace);
+
+}  // namespace inspect

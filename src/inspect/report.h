@@ -1,0 +1,96 @@
+#pragma once
+// The artifact report of one frame: which pixels are wrong, why, and between whom.
+//
+//     gpu::Trace trace;
+//     trace.keep_history = true;
+//     gpu.set_trace(&trace);
+//     ... draw a frame whose polygons carry depth (annotation words) ...
+//     const auto report = inspect::inspect(trace, {.scene = "mine"});
+//     report.wrong_pixels(), report.count(inspect::Cause::bucket_tie), inspect::to_text(report) ...
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/trace.h"
+#include "inspect/causes.h"
+#include "inspect/lint.h"
+
+namespace inspect {
+
+/// A rectangle of VRAM.
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+  [[nodiscard]] bool is_empty() const { return width <= 0 || height <= 0; }
+  bool operator==(const Rectangle&) const = default;
+};
+
+struct Options {
+  Order order = Order::list;
+  std::string scene = "trace";
+  std::uint32_t frame = 0;
+  Rectangle
+      picture{};  ///< whose top left corner is 0,0 in the report; empty: the drawing area of most polygons
+};
+
+/// One draw as the report names it: frame, draw number and bucket are stable from run to run.
+struct DrawId {
+  std::uint32_t draw = nobody;
+  std::uint32_t bucket = gpu::no_bucket;
+};
+
+/// Two draws and one cause: `winner` is seen where `owner` should be.
+struct WrongPair {
+  DrawId winner, owner;
+  Cause cause = Cause::blend_order;
+  bool has_cause = true;  ///< false for visibility bsp
+  std::uint64_t pixels = 0;
+  std::uint32_t example = 0;                 ///< one of them
+  double winner_depth = 0, owner_depth = 0;  ///< there, in view-space units, rounded
+};
+
+/// How full the buckets are. `known` is false for a list without a table: nothing here counts then.
+struct BucketCensus {
+  bool known = false;
+  std::uint32_t used = 0;                ///< buckets with a polygon or line in them
+  std::uint32_t largest = 0;             ///< the most in one bucket
+  std::uint32_t largest_bucket = 0;      ///< which one
+  std::uint64_t tied = 0;                ///< draws that share their bucket with another
+  std::vector<std::uint32_t> histogram;  ///< [n]: buckets that hold 2^n .. 2^(n+1)-1 draws
+};
+
+struct Report {
+  std::string scene;
+  std::uint32_t frame = 0;
+  Rectangle picture;
+  Order order = Order::list;
+  std::uint64_t pixels_drawn = 0;            ///< that a polygon, rectangle or line wrote
+  std::uint64_t fragments = 0;               ///< of polygons with depth: the samples truth looked at
+  std::uint32_t polygons_judged = 0;         ///< with depth
+  std::uint32_t polygons_without_depth = 0;  ///< layers: nothing is known about where they belong
+  std::vector<WrongPixel> wrong;             ///< by VRAM address
+  std::array<std::uint64_t, cause_count> causes{}, raw_causes{};
+  std::vector<WrongPair> pairs;  ///< most pixels first
+  BucketCensus buckets;
+  std::vector<LintItem> lint;
+  DecisionCounts decisions;
+
+  [[nodiscard]] std::uint64_t wrong_pixels() const { return wrong.size(); }
+  [[nodiscard]] std::uint64_t count(Cause cause) const { return causes[static_cast<std::size_t>(cause)]; }
+  [[nodiscard]] std::uint64_t raw_count(Cause cause) const {
+    return raw_causes[static_cast<std::size_t>(cause)];
+  }
+};
+
+/// Judges every pixel of a trace that kept its history. Time grows linearly with the fragments.
+/// A trace without depth gives no wrong pixel: polygons_judged says that nothing was looked at.
+Report inspect(const gpu::Trace& trace, const Options& options);
+
+/// "f0:d12:b34": frame, draw number, bucket; "b?" if there is no bucket, "background" for nobody.
+std::string id(std::uint32_t frame, const DrawId& draw);
+
+/// The table `otter inspect` prints.
+std::string to_text(const Report& report);
+
+}  // namespace inspect

@@ -1,0 +1,98 @@
+// The report in words and columns.
+
+#include <array>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+
+#include "inspect/report.h"
+
+namespace inspect {
+namespace {
+
+constexpr std::size_t worst_pairs_shown = 8;
+
+__attribute__((format(printf, 2, 3))) void print(std::string& out, const char* format, ...) {
+  std::array<char, 512> line{};
+  std::va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(line.data(), line.size(), format, arguments);
+  va_end(arguments);
+  out += line.data();
+}
+
+double percent(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
+}
+
+unsigned long long count(std::uint64_t n) { return n; }
+
+void causes(std::string& out, const Report& report) {
+  for (std::size_t c = 0; c < cause_count; ++c) {
+    if (report.raw_causes[c] == 0) continue;
+    print(out, "    %-16s %9llu   (matches on %llu)\n", cause_names[c].data(), count(report.causes[c]),
+          count(report.raw_causes[c]));
+  }
+}
+
+void pairs(std::string& out, const Report& report) {
+  if (report.pairs.empty()) return;
+  print(out, "  worst pairs (seen / should be)\n");
+  for (std::size_t i = 0; i < report.pairs.size() && i < worst_pairs_shown; ++i) {
+    const WrongPair& pair = report.pairs[i];
+    print(out, "    %7llu px  %-16s %s / %s, depth %.2f / %.2f at (%d,%d)\n", count(pair.pixels),
+          pair.has_cause ? name(pair.cause).data() : "(a bug)", id(report.frame, pair.winner).c_str(),
+          id(report.frame, pair.owner).c_str(), pair.winner_depth, pair.owner_depth,
+          static_cast<int>(pair.example % gpu::Vram::width) - report.picture.x,
+          static_cast<int>(pair.example / gpu::Vram::width) - report.picture.y);
+  }
+  if (report.pairs.size() > worst_pairs_shown) {
+    print(out, "    and %zu more\n", report.pairs.size() - worst_pairs_shown);
+  }
+}
+
+void buckets(std::string& out, const Report& report) {
+  const BucketCensus& b = report.buckets;
+  if (!b.known) {
+    print(out, "  buckets: not available (no ordering table is known)\n");
+    return;
+  }
+  print(out, "  buckets: %u used, %llu draws share theirs, most in %u (%u)\n", b.used, count(b.tied),
+        b.largest_bucket, b.largest);
+}
+
+}  // namespace
+
+std::string id(std::uint32_t frame, const DrawId& draw) {
+  if (draw.draw == nobody) return "background";
+  std::string text;
+  print(text, "f%u:d%u:b", frame, draw.draw);
+  if (draw.bucket == gpu::no_bucket) return text.append(1, '?');
+  print(text, "%u", draw.bucket);
+  return text;
+}
+
+std::string to_text(const Report& report) {
+  std::string out;
+  print(out, "%s, frame %u: %d x %d\n", report.scene.c_str(), report.frame, report.picture.width,
+        report.picture.height);
+  print(out, "  pixels drawn %llu, samples judged %llu, polygons judged %u", count(report.pixels_drawn),
+        count(report.fragments), report.polygons_judged);
+  if (report.polygons_without_depth != 0) print(out, ", without depth %u", report.polygons_without_depth);
+  print(out, "\n  wrong pixels %llu (%.2f %% of those drawn)\n", count(report.wrong_pixels()),
+        percent(report.wrong_pixels(), report.pixels_drawn));
+  if (report.polygons_judged == 0) print(out, "    (no polygon carries depth, so nothing could be judged)\n");
+  causes(out, report);
+  pairs(out, report);
+  buckets(out, report);
+  print(out, "  comparisons %llu, of which exact %llu (%.3f %%)\n",
+        count(report.decisions.filtered + report.decisions.exact), count(report.decisions.exact),
+        percent(report.decisions.exact, report.decisions.filtered + report.decisions.exact));
+  for (const LintItem& item : report.lint) {
+    print(out, "  lint %s%s%s: %s\n", item.kind.c_str(), item.at.empty() ? "" : " at ", item.at.c_str(),
+          item.text.c_str());
+  }
+  return out;
+}
+
+}  // namespace inspect
