@@ -39,7 +39,7 @@ TexelBox texel_box(const Primitive& p) {
 }  // namespace
 
 std::uint64_t Canvas::frame_bytes(const Options& o) {
-  const std::uint64_t words = samples_per_pixel(o) * o.layers.size() * (o.depth ? 2 : 1) + (o.ids ? 1 : 0);
+  const std::uint64_t words = samples_per_pixel(o) * o.layers.size() * (o.depth ? 2 : 1) + (o.trace ? 2 : 0);
   return area(o) * words * sizeof(Pixel);
 }
 
@@ -56,7 +56,10 @@ Canvas::Canvas(Options options)
     layer.colour.resize(area(o) * samples_per_pixel(o));
     if (o.depth) layer.depth.resize(layer.colour.size());
   }
-  if (o.ids) ids_.resize(area(o));
+  if (o.trace) {
+    ids_.resize(area(o));
+    texcoords_.resize(area(o));
+  }
   if (o.depth) depth_code_ = DepthCode(*o.depth);
   if (o.fog) fog_ = ramp(*o.fog);
 }
@@ -120,13 +123,16 @@ void Canvas::draw_queue() {
 Target Canvas::target(std::size_t index) {
   Layer& layer = layers_[index];
   const Point& offset = options_.layers[index];
-  Target t{layer.colour.data(),
-           layer.depth.empty() ? nullptr : layer.depth.data(),
-           ids_.empty() || index != 0 ? nullptr : ids_.data(),
-           width(),
-           height(),
-           offset,
-           {}};
+  Target t{.colour = layer.colour.data(),
+           .depth = layer.depth.empty() ? nullptr : layer.depth.data(),
+           .width = width(),
+           .height = height(),
+           .offset = offset,
+           .samples = {}};
+  if (index == 0 && options_.trace) {
+    t.ids = ids_.data();
+    t.texcoords = texcoords_.data();
+  }
   t.samples =
       sample_points_.empty() ? std::span<const Point>(&offset, 1) : std::span<const Point>(sample_points_);
   return t;
@@ -147,7 +153,7 @@ Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* c
   const bool deep = is_polygon && p.has_depth;
   Paint paint;
   paint.mode.depth = deep && options_.depth.has_value();
-  paint.mode.ids = options_.ids;
+  paint.mode.trace = options_.trace;
   if (p.is_semi_transparent()) paint.mode.blend = static_cast<Blending>(1 + static_cast<int>(state.blend()));
   paint.raw = p.is_raw();
   paint.gouraud = is_polygon && p.is_gouraud();
@@ -224,7 +230,7 @@ void for_each_run(Range columns, F&& f) {
 }
 
 Mode mode_for(const Target& target, Mode mode) {
-  mode.ids = target.ids != nullptr;
+  mode.trace = target.ids != nullptr;
   return mode;
 }
 
@@ -373,7 +379,7 @@ std::vector<Buffer> Canvas::buffers() const {
   add("canvas colour", per_sample);
   add("canvas samples", colour - per_sample);
   add("canvas depth", depth);
-  add("canvas ids", ids_.size() * sizeof(std::uint32_t));
+  add("canvas trace", (ids_.size() + texcoords_.size()) * sizeof(std::uint32_t));
   add("canvas queue", queue_.capacity() * sizeof(Queued));
   add("mip levels", mips_.bytes());
   return list;

@@ -45,7 +45,7 @@ class Canvas {
 
   [[nodiscard]] const Options& options() const { return options_; }
 
-  /// Places the canvas over VRAM pixels (x, y)..(x + width - 1, y + height - 1), empties depth, ids, queue.
+  /// Places the canvas over VRAM pixels (x, y)..(x + width - 1, y + height - 1), empties depth, trace, queue.
   /// Keeps the picture, as a frame buffer does.
   void begin_frame(int x, int y);
   /// Draws the queued semi-transparent polygons, far to near.
@@ -64,7 +64,10 @@ class Canvas {
 
   /// Frame buffer `layer`: samples of pixel (x, y) from (y * width + x) * samples on.
   [[nodiscard]] std::span<const Pixel> layer(std::size_t index) const { return layers_[index].colour; }
+  /// With options().trace, per pixel: the id given to draw(), 0 where nobody drew; and the texture
+  /// coordinates, 8.8, as u + 128 | (v + 128) << 16, meaningful where the writer is textured.
   [[nodiscard]] std::span<const std::uint32_t> ids() const { return ids_; }
+  [[nodiscard]] std::span<const std::uint32_t> texcoords() const { return texcoords_; }
   [[nodiscard]] int width() const { return options_.width * options_.scale; }    ///< canvas pixels
   [[nodiscard]] int height() const { return options_.height * options_.scale; }  ///< canvas pixels
   [[nodiscard]] std::size_t samples() const { return options_.samples.empty() ? 1 : options_.samples.size(); }
@@ -112,7 +115,7 @@ class Canvas {
   Grid grid_;
   std::vector<Point> sample_points_;
   std::vector<Layer> layers_;
-  std::vector<std::uint32_t> ids_;
+  std::vector<std::uint32_t> ids_, texcoords_;
   std::vector<Queued> queue_;
   DepthCode depth_code_;
   FogRamp fog_;

@@ -61,6 +61,12 @@ void fog_factors(const FogRamp& ramp, const Planes& planes, const Positions& pos
   }
 }
 
+/// Both coordinates in one word. Rounding may leave 0..255 by less than half a texel, so 128 keeps them
+/// positive.
+constexpr std::uint32_t texcoord(std::int32_t u, std::int32_t v) {
+  return (static_cast<std::uint32_t>(u + 128) & 0xffff) | static_cast<std::uint32_t>(v + 128) << 16;
+}
+
 /// Blends, stores colour, mask bit, depth and id of every living sample.
 template <Mode M>
 void write(const Target& target, const Paint& paint, const Run& run, const Fragments& f, Counters& counters) {
@@ -84,8 +90,11 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
       if constexpr (M.depth) {
         if (paint.pass == Pass::opaque) target.depth[at] = f.keys[i * samples + s];
       }
-      if constexpr (M.ids) {
-        if (s == 0) target.ids[row + i] = paint.id;
+      if constexpr (M.trace) {
+        if (s == 0) {
+          target.ids[row + i] = paint.id;
+          if constexpr (textured) target.texcoords[row + i] = texcoord(f.u[i], f.v[i]);
+        }
       }
       ++counters.written;
     }

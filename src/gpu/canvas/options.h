@@ -46,7 +46,8 @@ struct Options {
   /// Multi-sampling: coverage, depth and colour per sample, shaded once per pixel. Empty: off. Never with
   /// more than one layer. At most 8.
   std::vector<Point> samples = {};
-  bool ids = false;  ///< keep the number of the last writer of each pixel (of layer 0, sample 0)
+  /// Keep, for sample 0 of each pixel of layer 0, who wrote it last and with which texture coordinates.
+  bool trace = false;
 };
 
 }  // namespace gpu::canvas

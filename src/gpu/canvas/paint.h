@@ -28,14 +28,14 @@ struct Mode {
   Texturing texture = Texturing::none;
   Blending blend = Blending::opaque;
   bool depth = false;
-  bool ids = false;
+  bool trace = false;
 
   static constexpr std::size_t count = 4 * 5 * 2 * 2;
   [[nodiscard]] constexpr std::size_t index() const {
     return ((static_cast<std::size_t>(texture) * 5 + static_cast<std::size_t>(blend)) * 2 +
             (depth ? 1U : 0U)) *
                2 +
-           (ids ? 1U : 0U);
+           (trace ? 1U : 0U);
   }
   static constexpr Mode at(std::size_t i) {
     return {static_cast<Texturing>(i / 20), static_cast<Blending>(i / 4 % 5), i / 2 % 2 != 0, i % 2 != 0};
@@ -52,8 +52,9 @@ enum class Pass : std::uint8_t {
 /// The picture: one layer of a Canvas. Sample s of pixel (x, y) is at (y * width + x) * samples + s.
 struct Target {
   Pixel* colour = nullptr;
-  std::uint32_t* depth = nullptr;  ///< keys, nearer is smaller; nullptr without a z-buffer
-  std::uint32_t* ids = nullptr;    ///< per pixel; nullptr when nobody asked
+  std::uint32_t* depth = nullptr;      ///< keys, nearer is smaller; nullptr without a z-buffer
+  std::uint32_t* ids = nullptr;        ///< per pixel; nullptr when nobody asked
+  std::uint32_t* texcoords = nullptr;  ///< with ids: u + 128 | (v + 128) << 16, 8.8
   int width = 0, height = 0;
   Point offset{};                  ///< of the layer
   std::span<const Point> samples;  ///< one or more

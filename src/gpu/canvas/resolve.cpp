@@ -1,0 +1,154 @@
+#include "gpu/canvas/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gpu::canvas {
+namespace {
+
+constexpr std::uint32_t one = 65536;
+
+double falloff(Reconstruction filter, double distance) {
+  switch (filter) {
+    case Reconstruction::box:
+      return distance >= -0.5 && distance < 0.5 ? 1 : 0;
+    case Reconstruction::tent:
+      return std::max(0.0, 1 - std::abs(distance));
+    case Reconstruction::gauss:
+      break;
+  }
+  constexpr double deviation = 0.5;
+  constexpr double radius = 1.5;
+  return std::abs(distance) < radius ? std::exp(-distance * distance / (2 * deviation * deviation)) : 0;
+}
+
+/// 5 bits in the high end of a byte, widened to the whole byte.
+constexpr Pixel widen_bytes(Pixel five) { return five | (five >> 5 & 0x070707U); }
+
+constexpr Pixel opaque_black = 0xff000000;
+
+/// One sample a pixel and no filter: the frame is the picture.
+Image copy(const Canvas& canvas) {
+  Image image(canvas.width(), canvas.height());
+  const bool five = canvas.options().colour == Colour::bits15;
+  std::ranges::transform(canvas.layer(0), image.pixels.begin(), [five](Pixel p) {
+    return opaque_black | (five ? widen_bytes(p & 0xf8f8f8U) : p & 0xffffffU);
+  });
+  return image;
+}
+
+/// Weighted sums of one row of the picture, three channels a pixel.
+void add_row(std::vector<std::uint32_t>& sums, std::span<const Pixel> row, std::size_t samples,
+             const Tap& tap, bool five) {
+  const int width = static_cast<int>(row.size() / samples);
+  for (int x = 0; x < width; ++x) {
+    const auto source = static_cast<std::size_t>(std::clamp(x + tap.dx, 0, width - 1));
+    const Pixel raw = row[source * samples + tap.sample];
+    const Pixel p = five ? widen_bytes(raw & 0xf8f8f8U) : raw;
+    const auto at = static_cast<std::size_t>(x) * 3;
+    sums[at] += (p & 255) * tap.weight;
+    sums[at + 1] += (p >> 8 & 255) * tap.weight;
+    sums[at + 2] += (p >> 16 & 255) * tap.weight;
+  }
+}
+
+}  // namespace
+
+std::vector<Tap> filter_taps(const Options& options, Reconstruction filter) {
+  struct Weighted {
+    Tap tap;
+    double weight;
+  };
+  std::vector<Weighted> taps;
+  double total = 0;
+  const auto add = [&](std::size_t layer, std::size_t sample, Point at) {
+    for (int dy = -1; dy <= 1; ++dy) {
+      for (int dx = -1; dx <= 1; ++dx) {
+        const double x = dx + static_cast<double>(at.x) / units_per_pixel;
+        const double y = dy + static_cast<double>(at.y) / units_per_pixel;
+        const double weight = falloff(filter, x) * falloff(filter, y);
+        if (weight <= 0) continue;
+        taps.push_back({{layer, sample, dx, dy, 0}, weight});
+        total += weight;
+      }
+    }
+  };
+  if (options.samples.empty()) {
+    for (std::size_t i = 0; i < options.layers.size(); ++i) add(i, 0, options.layers[i]);
+  } else {
+    for (std::size_t s = 0; s < options.samples.size(); ++s) add(0, s, options.samples[s]);
+  }
+  // Each weight is the difference of two rounded running sums, so that they sum to exactly one.
+  std::vector<Tap> result;
+  double running = 0;
+  std::uint32_t given = 0;
+  for (auto& [tap, weight] : taps) {
+    running += weight;
+    const auto until = static_cast<std::uint32_t>(running / total * one + 0.5);
+    tap.weight = until - given;
+    given = until;
+    if (tap.weight != 0) result.push_back(tap);
+  }
+  return result;
+}
+
+Image resolve(const Canvas& canvas, Reconstruction filter) {
+  const auto taps = filter_taps(canvas.options(), filter);
+  if (taps.size() == 1) return copy(canvas);
+  Image image(canvas.width(), canvas.height());
+  const bool five = canvas.options().colour == Colour::bits15;
+  const auto samples = canvas.samples();
+  const auto row_samples = static_cast<std::size_t>(image.width) * samples;
+  std::vector<std::uint32_t> sums(static_cast<std::size_t>(image.width) * 3);
+  for (int y = 0; y < image.height; ++y) {
+    std::ranges::fill(sums, one / 2);
+    for (const Tap& tap : taps) {
+      const auto line = static_cast<std::size_t>(std::clamp(y + tap.dy, 0, image.height - 1));
+      add_row(sums, canvas.layer(tap.layer).subspan(line * row_samples, row_samples), samples, tap, five);
+    }
+    for (int x = 0; x < image.width; ++x) {
+      const auto at = static_cast<std::size_t>(x) * 3;
+      image.pixels[image.index(x, y)] =
+          opaque_black | sums[at] >> 16 | sums[at + 1] >> 16 << 8 | sums[at + 2] >> 16 << 16;
+    }
+  }
+  return image;
+}
+
+const Image& Accumulator::add(const Image& frame) {
+  constexpr int memory = 8;  // frames: the length of the jitter sequence
+  const auto values = frame.pixels.size() * 3;
+  if (history_.size() != values || shown_.width != frame.width) {
+    history_.assign(values, 0);
+    shown_ = frame;
+    frames_ = 0;
+  }
+  frames_ = std::min(frames_ + 1, memory);
+  for (int y = 0; y < frame.height; ++y) {
+    for (int x = 0; x < frame.width; ++x) {
+      const auto at = frame.index(x, y);
+      std::uint32_t result = opaque_black;
+      for (unsigned c = 0; c < 3; ++c) {
+        const auto channel = [c](std::uint32_t p) { return static_cast<int>(p >> (8 * c) & 255) << 8; };
+        int low = channel(frame.pixels[at]);
+        int high = low;
+        for (int dy = -1; dy <= 1; ++dy) {
+          for (int dx = -1; dx <= 1; ++dx) {
+            const int value = channel(frame.nearest(x + dx, y + dy));
+            low = std::min(low, value);
+            high = std::max(high, value);
+          }
+        }
+        auto& past = history_[at * 3 + c];
+        const int kept = frames_ == 1 ? channel(frame.pixels[at]) : std::clamp<int>(past, low, high);
+        const int mixed = kept + (channel(frame.pixels[at]) - kept) / frames_;
+        past = static_cast<std::uint16_t>(mixed);
+        result |= static_cast<std::uint32_t>(std::min((mixed + 128) >> 8, 255)) << (8 * c);
+      }
+      shown_.pixels[at] = result;
+    }
+  }
+  return shown_;
+}
+
+}  // namespace gpu::canvas
