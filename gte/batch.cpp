@@ -1,14 +1,62 @@
 #include "gte/batch.h"
 
+#include <hwy/targets.h>
+
 #include <cassert>
 #include <string_view>
+#include <vector>
 
 #include "gte/batch_doors.h"
 
 namespace gte {
 namespace {
 
-const Doors* const doors = &plain_doors;
+/// One way through the batch door. `name` is what people call the instruction set.
+struct Target {
+  const char* name;
+  const ProjectDoors* project;
+  const LightDoors* light;
+};
+
+const char* common_name(std::int64_t target) {
+  switch (target) {
+    case HWY_SSE4:
+      return "SSE4";
+    case HWY_AVX2:
+      return "AVX2";
+    case HWY_AVX3:
+      return "AVX-512";
+    default:
+      return hwy::TargetName(target);
+  }
+}
+
+/// Asks Highway for the kernels of each instruction set this processor has, fastest first. Its choice is
+/// process-wide, so it is left as it was found: at "all".
+std::vector<Target> find_targets() {
+  std::vector<Target> found;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    const ProjectDoors* project = chosen_project_doors();
+    const LightDoors* light = chosen_light_doors();
+    if (project != nullptr && light != nullptr) found.push_back({common_name(target), project, light});
+  }
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  found.push_back({"scalar", &plain_project_doors, &plain_light_doors});
+  return found;
+}
+
+struct Dispatch {
+  std::vector<Target> targets = find_targets();
+  Target now = targets.front();
+};
+
+Dispatch& dispatch() {
+  static Dispatch chosen;
+  return chosen;
+}
 
 void measure(S3_12 scale, std::span<const ScreenXy> sxy, std::span<const std::uint16_t> sz,
              std::span<const std::uint32_t> indices, std::size_t corners, const FaceOut& out) {
@@ -37,13 +85,13 @@ void measure(S3_12 scale, std::span<const ScreenXy> sxy, std::span<const std::ui
 }  // namespace
 
 void project(const Registers& setup, std::span<const Vertex> in, const ProjectOut& out, Command c) {
-  doors->project(setup, in, out, c);
+  dispatch().now.project->project(setup, in, out, c);
 }
 
 void project_triangles(const Registers& setup, std::span<const Vertex> in, const TriangleOut& out,
                        Command c) {
   assert(in.size() % 3 == 0);
-  doors->project_triangles(setup, in, out, c);
+  dispatch().now.project->project_triangles(setup, in, out, c);
 }
 
 void measure_triangles(const Registers& setup, std::span<const ScreenXy> sxy,
@@ -61,32 +109,41 @@ void light(const Registers& setup, Light kind, std::span<const Vertex> normals, 
            std::span<const std::int16_t> ir0, const ColourOut& out, Command c) {
   assert(rgbc.empty() || rgbc.size() == normals.size());
   assert(ir0.empty() || ir0.size() == normals.size());
-  doors->light(setup, kind, normals, rgbc, ir0, out, c);
+  dispatch().now.light->light(setup, kind, normals, rgbc, ir0, out, c);
 }
 
 void cue(const Registers& setup, std::span<const Colour> rgbc, std::span<const std::int16_t> ir0,
          const ColourOut& out, Command c) {
   assert(ir0.empty() || ir0.size() == rgbc.size());
-  doors->cue(setup, rgbc, ir0, out, c);
+  dispatch().now.light->cue(setup, rgbc, ir0, out, c);
 }
 
 void cue_triples(const Registers& setup, std::span<const Colour> rgb, std::span<const std::int16_t> ir0,
                  const ColourOut& out, Command c) {
   assert(rgb.size() % 3 == 0 && (ir0.empty() || ir0.size() == rgb.size() / 3));
-  doors->cue_triples(setup, rgb, ir0, out, c);
+  dispatch().now.light->cue_triples(setup, rgb, ir0, out, c);
 }
 
 void multiply(const Registers& setup, Command c, std::span<const Vertex> in, const VectorOut& out) {
-  doors->multiply(setup, c, in, out);
+  dispatch().now.light->multiply(setup, c, in, out);
 }
 
-const char* batch_target() { return doors->name; }
+const char* batch_target() { return dispatch().now.name; }
 
-std::span<const char* const> batch_targets() {
-  static constexpr std::array<const char*, 1> names{"scalar"};
+std::vector<const char*> batch_targets() {
+  std::vector<const char*> names;
+  for (const Target& target : dispatch().targets) names.push_back(target.name);
   return names;
 }
 
-bool use_batch_target(const char* name) { return std::string_view(name) == "scalar"; }
+bool use_batch_target(std::string_view name) {
+  for (const Target& target : dispatch().targets) {
+    if (target.name == name) {
+      dispatch().now = target;
+      return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace gte

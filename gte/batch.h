@@ -13,6 +13,8 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
+#include <vector>
 
 #include "gte/commands.h"
 #include "gte/registers.h"
@@ -110,11 +112,11 @@ void multiply(const Registers& setup, Command c, std::span<const Vertex> in, con
 const char* batch_target();
 
 /// Those this processor and this build offer, fastest first; the last is "scalar".
-std::span<const char* const> batch_targets();
+std::vector<const char*> batch_targets();
 
-/// Uses the one named instead of the fastest, until called again; an unknown or missing name changes nothing
+/// Uses the one named instead of the fastest, until called again; an unknown name changes nothing
 /// and returns false. Not for use while another thread is inside the batch door: it is for tests and
 /// benchmarks.
-bool use_batch_target(const char* name);
+bool use_batch_target(std::string_view name);
 
 }  // namespace gte

@@ -8,12 +8,12 @@
 
 namespace gte {
 
-/// The batch door of one instruction set. Same arguments as the functions of batch.h, which only choose the
-/// table.
-struct Doors {
-  const char* name;
+// The functions of batch.h, which only choose between these.
+struct ProjectDoors {
   void (*project)(const Registers&, std::span<const Vertex>, const ProjectOut&, Command);
   void (*project_triangles)(const Registers&, std::span<const Vertex>, const TriangleOut&, Command);
+};
+struct LightDoors {
   void (*light)(const Registers&, Light, std::span<const Vertex>, std::span<const Colour>,
                 std::span<const std::int16_t>, const ColourOut&, Command);
   void (*cue)(const Registers&, std::span<const Colour>, std::span<const std::int16_t>, const ColourOut&,
@@ -23,8 +23,14 @@ struct Doors {
   void (*multiply)(const Registers&, Command, std::span<const Vertex>, const VectorOut&);
 };
 
-/// The single commands in a loop.
-extern const Doors plain_doors;
+/// The single commands in a loop: what all others must equal.
+extern const ProjectDoors plain_project_doors;
+extern const LightDoors plain_light_doors;
+
+/// Those of the instruction set that Highway has chosen; null where it has none that is faster than the plain
+/// loop.
+const ProjectDoors* chosen_project_doors();
+const LightDoors* chosen_light_doors();
 
 /// A pointer into the same array further on; null stays null.
 template <class T>

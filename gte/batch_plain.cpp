@@ -121,7 +121,7 @@ void multiply(const Registers& setup, Command c, std::span<const Vertex> in, con
 }  // namespace
 }  // namespace plain
 
-constinit const Doors plain_doors{"scalar",   plain::project,     plain::project_triangles, plain::light,
-                                  plain::cue, plain::cue_triples, plain::multiply};
+constinit const ProjectDoors plain_project_doors{plain::project, plain::project_triangles};
+constinit const LightDoors plain_light_doors{plain::light, plain::cue, plain::cue_triples, plain::multiply};
 
 }  // namespace gte

@@ -20,14 +20,11 @@ Offsets raw(const std::array<Format, 3>& of) {
 
 std::int64_t product(S3_12 m, std::int16_t x) { return std::int64_t{m.raw} * x; }
 
-/// Three products are below 3 * 2^30, so a translation this far from its own limits cannot leave 44 bits, and
-/// no partial sum needs its check.
+/// Three products are below 3 * 2^30, so a translation below 2^30 cannot take the sum out of 44 bits, and no
+/// partial sum needs its check.
 bool cannot_overflow(const Offsets& t) {
-  constexpr std::uint32_t margin = 1u << 20;
-  const auto inside = [](std::int32_t v) {
-    return static_cast<std::uint32_t>(v) + (0x80000000u - margin) < 0u - 2 * margin;
-  };
-  return (inside(t[0]) & int{inside(t[1])} & int{inside(t[2])}) != 0;
+  const auto magnitude = [](std::int32_t v) { return static_cast<std::uint32_t>(v ^ (v >> 31)); };
+  return (magnitude(t[0]) | magnitude(t[1]) | magnitude(t[2])) < 1u << 30;
 }
 
 /// Translation + matrix * vector, every partial sum checked.
@@ -188,31 +185,45 @@ void avsz4(Registers& r, Command) {
   r.flag = limits.finish();
 }
 
-void mvmva(Registers& r, Command c) {
-  Limits limits;
-  const auto red = static_cast<std::int16_t>(r.rgbc.r << 4);
-  const auto row = [](std::int16_t a, std::int16_t b, std::int16_t d) {
-    return std::array<S3_12, 3>{S3_12{a}, S3_12{b}, S3_12{d}};
+Matrix mvmva_matrix(const Registers& r, Command c) {
+  const auto row = [](std::int16_t x, std::int16_t y, std::int16_t z) {
+    return std::array<S3_12, 3>{S3_12{x}, S3_12{y}, S3_12{z}};
   };
   const auto same = [&](S3_12 m) { return row(m.raw, m.raw, m.raw); };
-  const Matrix garbage{row(static_cast<std::int16_t>(-red), red, r.ir[0]), same(r.rt[0][2]),
-                       same(r.rt[1][1])};
-  const Matrix& m = c.mx() == 0 ? r.rt : c.mx() == 1 ? r.llm : c.mx() == 2 ? r.lcm : garbage;
-  const Vector x = c.v() == 3 ? ir_vector(r) : vector(r.v[c.v()]);
-  switch (c.cv()) {
+  switch (c.mx()) {
     case 0:
-      store(r, limits, c, transform(limits, m, r.tr, x));
-      break;
+      return r.rt;
     case 1:
-      store(r, limits, c, transform(limits, m, raw(r.bk), x));
-      break;
+      return r.llm;
     case 2:
-      store(r, limits, c, transform_far_colour(limits, m, raw(r.fc), x, c.shift()));
-      break;
+      return r.lcm;
     default:
-      store(r, limits, c, transform(limits, m, {}, x));
       break;
   }
+  const auto red = static_cast<std::int16_t>(r.rgbc.r << 4);
+  return {row(static_cast<std::int16_t>(-red), red, r.ir[0]), same(r.rt[0][2]), same(r.rt[1][1])};
+}
+
+std::array<std::int32_t, 3> mvmva_translation(const Registers& r, Command c) {
+  switch (c.cv()) {
+    case 0:
+      return r.tr;
+    case 1:
+      return raw(r.bk);
+    case 2:
+      return raw(r.fc);
+    default:
+      return {};
+  }
+}
+
+void mvmva(Registers& r, Command c) {
+  Limits limits;
+  const Matrix m = mvmva_matrix(r, c);
+  const Offsets t = mvmva_translation(r, c);
+  const Vector x = c.v() == 3 ? ir_vector(r) : vector(r.v[c.v()]);
+  store(r, limits, c,
+        c.cv() == 2 ? transform_far_colour(limits, m, t, x, c.shift()) : transform(limits, m, t, x));
   r.flag = limits.finish();
 }
 

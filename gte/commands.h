@@ -100,6 +100,10 @@ void avsz4(Registers& r, Command c = sdk::avsz4);
 ///         Mi2*Y + Mi3*Z.   mx = 3: rows (-R<<4, R<<4, IR0), (RT13 x3), (RT22 x3), R = red of RGBC.
 void mvmva(Registers& r, Command c);
 
+/// The matrix and the translation that an MVMVA word selects.
+Matrix mvmva_matrix(const Registers& r, Command c);
+std::array<std::int32_t, 3> mvmva_translation(const Registers& r, Command c);
+
 /// OP: cross product of the RT diagonal D with IR.
 ///     MAC1 = D2*IR3 - D3*IR2,  MAC2 = D3*IR1 - D1*IR3,  MAC3 = D1*IR2 - D2*IR1
 void op(Registers& r, Command c = sdk::op);
