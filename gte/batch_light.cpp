@@ -25,8 +25,12 @@ struct Vector {
 /// Which limits were met: a lane is not zero where IRi, or colour i, lost bits in some step of the command.
 template <bool wanted>
 struct Lost {
-  V ir[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-  V colour[3] = {hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+  V ir[3], colour[3];
+
+  // Spelt out: a constructor the compiler makes is not compiled for the instruction set of its surroundings.
+  HWY_INLINE Lost() {
+    for (std::size_t i = 0; i < 3; ++i) ir[i] = colour[i] = hn::Zero(d);
+  }
 
   HWY_INLINE V limit_ir(std::size_t i, V mac, V lowest) {
     const V kept = limit(mac, lowest, all(0x7fff));
