@@ -1,4 +1,4 @@
-// Any words on both ports: bit 0 of the first byte asks for the z-buffer, bit 1 for a trace with history; then every
+// Any words on both ports: bit 0 of the first byte asks for the z-buffer, bit 1 for a trace, bit 2 for its history; then every
 // word is preceded by a byte that chooses GP0, GP1 or a read.
 
 #include <cstddef>
@@ -9,11 +9,20 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
-  gpu::Gpu gpu;
-  gpu::Trace trace;
-  if ((data[0] & 1) != 0) gpu.set_depth(gpu::DepthOptions{});
-  if ((data[0] & 2) != 0) gpu.set_trace(&trace);
-  trace.keep_history = size < 256;  // a large fill makes half a million events
+  // One GPU for all inputs, put back by hand: to make one takes as long as to draw the whole input.
+  static gpu::Gpu gpu;
+  static gpu::Trace trace;
+  gpu.gp1(0);
+  std::memset(gpu.vram().pixels().data(), 0, gpu.vram().pixels().size_bytes());
+  if ((data[0] & 1) != 0) {
+    gpu.set_depth(gpu::DepthOptions{});
+  } else {
+    gpu.set_depth(std::nullopt);
+  }
+  trace.draws.clear();
+  trace.history.clear();
+  trace.keep_history = (data[0] & 4) != 0 && size < 64;  // a large fill makes half a million events
+  gpu.set_trace((data[0] & 2) != 0 ? &trace : nullptr);
   gpu.begin_frame();
   for (std::size_t at = 1; at + 5 <= size; at += 5) {
     std::uint32_t word = 0;

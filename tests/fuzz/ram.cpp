@@ -13,10 +13,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size < 8) return 0;
   std::uint32_t first = 0;
   std::memcpy(&first, data, sizeof first);
-  ot::MainRam ram(ot::RamSize::mib2);
+  static ot::MainRam ram(ot::RamSize::mib2);  // behind the copies lies what earlier inputs left
   const std::size_t words = std::min<std::size_t>((size - 4) / 4, 4096);
   for (std::size_t at = 0; at < 2 * words; ++at) std::memcpy(&ram.words()[at], data + 4 + at % words * 4, 4);
-  gpu::Gpu gpu;
+  static gpu::Gpu gpu;
+  gpu.gp1(0);
   std::uint32_t sent = 0;
   const auto result = ot::walk(ram, first & 0xffffff, [&](std::uint32_t, std::span<const std::uint32_t> payload) {
     sent += static_cast<std::uint32_t>(payload.size());
