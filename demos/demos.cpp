@@ -13,6 +13,16 @@ constexpr std::array entries{
     Entry{"crates", "Textured crates, spinning",
           "Convex objects well apart: with 4096 buckets the ordering table shows what a z-buffer shows",
           crates},
+    Entry{"cyclic", "Three bars in a cycle",
+          "Each bar lies over the next: no painter's order is right, a z-buffer is", cyclic},
+    Entry{"crossing", "Two walls that cross",
+          "Surfaces that pass through each other: one is drawn over the other's nearer half", crossing},
+    Entry{"corridor", "A long textured corridor",
+          "Long floor quads sort in front of what stands on them, and affine textures bend", corridor},
+    Entry{"glass", "Four panes of glass",
+          "The four semi-transparency modes, and what list order does to layers of them", glass},
+    Entry{"highlands", "Hills in the evening haze",
+          "Light and fog per vertex by the GTE on a mesh of shared vertices", highlands},
 };
 
 }  // namespace

@@ -6,5 +6,10 @@
 namespace demos {
 
 scene::Scene crates();
+scene::Scene cyclic();
+scene::Scene crossing();
+scene::Scene corridor();
+scene::Scene glass();
+scene::Scene highlands();
 
 }  // namespace demos
