@@ -1,8 +1,8 @@
 #include "app/machine.h"
 
+#include <algorithm>
 #include <utility>
 
-#include "display/scanout.h"
 #include "scene/pipeline.h"
 
 namespace app {
@@ -39,11 +39,19 @@ scene::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::
     builder_ = std::make_unique<scene::FrameBuilder>(scene_, knobs);
     builder_->upload(gpu_);
   }
-  return scene::render_frame(*builder_, static_cast<double>(frame) / 60.0, knobs, ram_, gpu_);
-}
-
-display::Picture Machine::picture() const {
-  return display::scan_out(gpu_.vram().pixels(), display::area_of(gpu_.display()));
+  const bool continues = frame == last_frame_ + 1 && knobs == last_knobs_;
+  if (!continues) presenter_.forget();
+  const int before = continues ? 0 : display::Presenter::frames_before(knobs);
+  last_frame_ = frame;
+  last_knobs_ = knobs;
+  scene::Result<scene::FrameStats> stats;
+  for (std::int64_t f = frame - before; f <= frame; ++f) {
+    const auto seconds = static_cast<double>(std::max<std::int64_t>(f, 0)) / 60.0;
+    stats = scene::render_frame(*builder_, seconds, knobs, ram_, gpu_);
+    if (!stats) return stats;
+    picture_ = presenter_.show(gpu_, knobs);
+  }
+  return stats;
 }
 
 void Machine::fly(CameraOffset& camera, glm::vec3 step) const {

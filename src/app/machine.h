@@ -10,6 +10,7 @@
 
 #include "app/camera.h"
 #include "display/picture.h"
+#include "display/present.h"
 #include "gpu/gpu.h"
 #include "ot/main_ram.h"
 #include "scene/frame.h"
@@ -26,12 +27,13 @@ class Machine {
   Machine& operator=(const Machine&) = delete;
 
   /// Draws the state at frame / 60 s, seen from the scene's camera moved by `camera`.
+  /// A frame that temporal accumulation cannot continue from the last one draws the frames before it first.
   /// Error: knobs that cannot be met, a frame that does not fit into RAM, a polygon without depth.
   scene::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                         const CameraOffset& camera = {});
 
   /// What the display shows after draw().
-  [[nodiscard]] display::Picture picture() const;
+  [[nodiscard]] const display::Picture& picture() const { return picture_; }
 
   /// Moves `camera` by `step` in the axes of the picture last drawn (see app::fly).
   void fly(CameraOffset& camera, glm::vec3 step) const;
@@ -50,6 +52,10 @@ class Machine {
       pivot_distance_;  // of the first frame: a pivot that moved with every frame would make the camera swim
   ot::MainRam ram_{ot::RamSize::mib8};
   gpu::Gpu gpu_;
+  display::Presenter presenter_;
+  display::Picture picture_;
+  std::int64_t last_frame_ = -1;  // drawn with last_knobs_
+  scene::Knobs last_knobs_;
   std::unique_ptr<scene::FrameBuilder> builder_;
 };
 

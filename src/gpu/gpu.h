@@ -27,7 +27,8 @@ namespace gpu {
 
 namespace canvas {
 class Canvas;
-}
+struct Options;
+}  // namespace canvas
 
 /// What a z-buffered frame could not do.
 struct FrameEnd {
@@ -84,14 +85,20 @@ class Gpu {
   /// nullptr without set_depth.
   [[nodiscard]] const DepthPlane* depth_plane() const { return depth_.get(); }
 
+  // --- accurate target ---
+
+  /// Sets the target beside VRAM; nothing is the console. Primitives whose drawing area touches the canvas are
+  /// drawn there instead of in VRAM; fills, copies and uploads act on both. Whoever draws a frame begins and
+  /// ends it on the canvas too. Allocates unless the options are those it has.
+  void set_canvas(const std::optional<canvas::Options>& options);
+  /// nullptr without set_canvas.
+  [[nodiscard]] canvas::Canvas* canvas() { return canvas_.get(); }
+  [[nodiscard]] const canvas::Canvas* canvas() const { return canvas_.get(); }
+
   // --- watching ---
 
   /// nullptr: nobody watches and nothing is paid.
   void set_trace(Trace* trace) { trace_ = trace; }
-  /// Primitives whose drawing area touches the canvas are drawn there instead of in VRAM; fills, copies and
-  /// uploads act on both. nullptr: the console's own target. Borrowed; the caller frames it (begin_frame,
-  /// end_frame).
-  void set_canvas(canvas::Canvas* canvas) { canvas_ = canvas; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
   void reset_counters() { counters_ = {}; }
   /// Bytes held besides VRAM, by purpose: depth plane, queue.
@@ -161,7 +168,7 @@ class Gpu {
   std::unique_ptr<DepthPlane> depth_;
   FrameEnd frame_;
   Trace* trace_ = nullptr;
-  canvas::Canvas* canvas_ = nullptr;
+  std::unique_ptr<canvas::Canvas> canvas_;
   Counters counters_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
 #include "ot/gp0.h"
 

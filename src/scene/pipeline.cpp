@@ -2,30 +2,13 @@
 
 #include <chrono>
 
+#include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
 #include "ot/walker.h"
+#include "scene/accurate.h"
 
 namespace scene {
 namespace {
-
-std::optional<gpu::DepthOptions> depth_options(const Knobs& knobs) {
-  if (knobs.visibility != Visibility::zbuffer) return std::nullopt;
-  gpu::DepthOptions options;
-  options.format = static_cast<gpu::DepthFormat>(knobs.depth);
-  options.mapping = static_cast<gpu::DepthMapping>(knobs.depth_mapping);
-  options.test = static_cast<gpu::DepthTest>(knobs.depth_test);
-  options.reversed = knobs.depth_reversed;
-  options.near_z = knobs.near_z;
-  options.far_z = knobs.far_z;
-  return options;
-}
-
-void use_depth(const Knobs& knobs, gpu::Gpu& gpu) {
-  const auto wanted = depth_options(knobs);
-  const auto* plane = gpu.depth_plane();
-  const auto current = plane != nullptr ? std::optional(plane->options()) : std::nullopt;
-  if (wanted != current) gpu.set_depth(wanted);
-}
 
 Result<void> draw_list(const Frame& frame, const ot::MainRam& ram, gpu::Gpu& gpu) {
   const auto result = ot::walk(
@@ -40,10 +23,11 @@ Result<void> draw_list(const Frame& frame, const ot::MainRam& ram, gpu::Gpu& gpu
 Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs, ot::MainRam& ram,
                         gpu::Gpu& gpu) {
   using Clock = std::chrono::steady_clock;
-  use_depth(knobs, gpu);
+  if (auto used = use_targets(builder, knobs, gpu); !used) return used;
   Clock::duration drawing{};
   auto start = Clock::now();
   gpu.begin_frame();
+  if (gpu.canvas() != nullptr) gpu.canvas()->begin_frame(0, frame.buffer_y);
   for (;;) {
     if (auto drawn = draw_list(frame, ram, gpu); !drawn) return drawn;
     drawing += Clock::now() - start;
@@ -52,7 +36,12 @@ Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs,
     start = Clock::now();
   }
   start = Clock::now();
-  const auto end = gpu.end_frame();
+  auto end = gpu.end_frame();
+  if (gpu.canvas() != nullptr) {
+    const auto canvas_end = gpu.canvas()->end_frame();
+    end.polygons_without_depth += canvas_end.polygons;
+    end.first_without_depth = canvas_end.first;
+  }
   gpu.gp1(FrameBuilder::show_gp1(frame));
   drawing += Clock::now() - start;
   frame.stats.raster_ms = std::chrono::duration<double, std::milli>(drawing).count();

@@ -186,12 +186,13 @@ TEST_SUITE("canvas") {
     double sum = 0;
     int pixels = 0;
     for (const auto& t : triangles) {
-      Studio studio(target());
+      auto jittered = target();
+      jittered.temporal = true;
+      Studio studio(jittered);
       canvas::Accumulator accumulator;
       canvas::Image shown;
       for (int frame = 0; frame < 2 * canvas::jitter_length; ++frame) {
         studio.canvas.begin_frame(0, 0);
-        studio.canvas.set_jitter(canvas::temporal_jitter(frame));
         shown = accumulator.add(picture(studio, t));
       }
       for (int y = 0; y < side; ++y) {

@@ -81,15 +81,21 @@ inline std::vector<std::uint32_t> area_words(int width, int height) {
 /// A GPU that draws on a canvas over (0, 0)..(width - 1, height - 1).
 class Studio {
  public:
-  explicit Studio(gpu::canvas::Options options) : canvas(std::move(options)) {
-    gpu.set_canvas(&canvas);
+  explicit Studio(const gpu::canvas::Options& options) : gpu(with_canvas(options)), canvas(*gpu.canvas()) {
     canvas.begin_frame(0, 0);
     gpu.gp0(area_words(canvas.options().width, canvas.options().height));
   }
   void draw(const std::vector<std::uint32_t>& words) { gpu.gp0(words); }
 
   gpu::Gpu gpu;
-  gpu::canvas::Canvas canvas;
+  gpu::canvas::Canvas& canvas;
+
+ private:
+  static gpu::Gpu with_canvas(const gpu::canvas::Options& options) {
+    gpu::Gpu made;
+    made.set_canvas(options);
+    return made;
+  }
 };
 
 /// A 15-bit canvas colour as VRAM would hold it.

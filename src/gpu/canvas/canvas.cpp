@@ -5,6 +5,7 @@
 #include <cassert>
 #include <utility>
 
+#include "gpu/canvas/sample_pattern.h"
 #include "gpu/canvas/stages.h"
 #include "gpu/coverage.h"
 
@@ -46,11 +47,13 @@ std::uint64_t Canvas::frame_bytes(const Options& o) {
 Canvas::Canvas(Options options)
     : options_(std::move(options)),
       grid_{0, 0, options_.scale, options_.fraction_bits},
+      layer_points_(options_.layers),
       sample_points_(options_.samples) {
   const Options& o = options_;
   assert(o.width > 0 && o.width <= 1024 && o.height > 0 && o.height <= 512);
   assert(o.scale >= 1 && o.scale <= 8 && std::has_single_bit(static_cast<unsigned>(o.scale)));
   assert(!o.layers.empty() && o.samples.size() <= 8 && (o.samples.empty() || o.layers.size() == 1));
+  assert(!o.temporal || (o.layers.size() == 1 && o.samples.empty()));
   layers_.resize(o.layers.size());
   for (Layer& layer : layers_) {
     layer.colour.resize(area(o) * samples_per_pixel(o));
@@ -71,16 +74,12 @@ void Canvas::begin_frame(int x, int y) {
   std::ranges::fill(ids_, 0);
   queue_.clear();
   without_depth_ = {};
+  if (options_.temporal) layer_points_[0] = temporal_jitter(frames_++);
 }
 
 WithoutDepth Canvas::end_frame() {
   draw_queue();
   return without_depth_;
-}
-
-void Canvas::set_jitter(Point offset) {
-  assert(options_.layers.size() == 1);
-  options_.layers[0] = offset;
 }
 
 bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id) {
@@ -122,7 +121,7 @@ void Canvas::draw_queue() {
 
 Target Canvas::target(std::size_t index) {
   Layer& layer = layers_[index];
-  const Point& offset = options_.layers[index];
+  const Point& offset = layer_points_[index];
   Target t{.colour = layer.colour.data(),
            .depth = layer.depth.empty() ? nullptr : layer.depth.data(),
            .width = width(),

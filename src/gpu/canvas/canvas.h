@@ -51,9 +51,6 @@ class Canvas {
   /// Draws the queued semi-transparent polygons, far to near.
   WithoutDepth end_frame();
 
-  /// Temporal accumulation: where layer 0 samples its pixels from now on.
-  void set_jitter(Point offset);
-
   /// Draws a polygon, rectangle or line segment if its drawing area touches the canvas. False: it does not,
   /// the primitive is VRAM's. `clut`: 256 entries, read during the call. `id` is stored as the pixels'
   /// writer.
@@ -113,10 +110,11 @@ class Canvas {
 
   Options options_;
   Grid grid_;
-  std::vector<Point> sample_points_;
+  std::vector<Point> layer_points_, sample_points_;
   std::vector<Layer> layers_;
   std::vector<std::uint32_t> ids_, texcoords_;
   std::vector<Queued> queue_;
+  int frames_ = 0;  // begun
   DepthCode depth_code_;
   FogRamp fog_;
   MipCache mips_;

@@ -29,6 +29,8 @@ enum class Colour : std::uint8_t {
 struct Fog {
   std::uint8_t r = 0, g = 0, b = 0;
   double near_z = 0, far_z = 1;  ///< view-space units: no fog at near, only fog at far; 0 < near < far
+
+  bool operator==(const Fog&) const = default;
 };
 
 struct Options {
@@ -48,6 +50,10 @@ struct Options {
   std::vector<Point> samples = {};
   /// Keep, for sample 0 of each pixel of layer 0, who wrote it last and with which texture coordinates.
   bool trace = false;
+  /// Temporal accumulation: every frame samples its pixels at the next jitter. Never with layers or samples.
+  bool temporal = false;
+
+  bool operator==(const Options&) const = default;
 };
 
 }  // namespace gpu::canvas

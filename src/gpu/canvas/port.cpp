@@ -1,9 +1,17 @@
-// How a Gpu hands primitives to the canvas it was given.
+// How a Gpu hands primitives to its canvas.
 
 #include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
 
 namespace gpu {
+
+void Gpu::set_canvas(const std::optional<canvas::Options>& options) {
+  if (!options) {
+    canvas_ = nullptr;
+  } else if (canvas_ == nullptr || canvas_->options() != *options) {
+    canvas_ = std::make_unique<canvas::Canvas>(*options);
+  }
+}
 
 /// Needs canvas_.
 bool Gpu::draw_on_canvas() {

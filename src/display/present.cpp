@@ -1,0 +1,56 @@
+#include "display/present.h"
+
+#include <algorithm>
+
+#include "display/scanout.h"
+#include "gpu/canvas/canvas.h"
+#include "gpu/canvas/sample_pattern.h"
+
+namespace display {
+namespace {
+
+namespace canvas = gpu::canvas;
+using scene::AntialiasKind;
+
+Picture to_picture(const canvas::Image& image) {
+  Picture picture(image.width, image.height);
+  std::ranges::transform(image.pixels, picture.pixels.begin(), [](std::uint32_t p) {
+    return Rgba{static_cast<std::uint8_t>(p), static_cast<std::uint8_t>(p >> 8),
+                static_cast<std::uint8_t>(p >> 16)};
+  });
+  return picture;
+}
+
+canvas::Image to_image(const Picture& picture) {
+  canvas::Image image(picture.width, picture.height);
+  std::ranges::transform(picture.pixels, image.pixels.begin(),
+                         [](Rgba p) { return p.r | p.g << 8U | p.b << 16U | 0xff000000U; });
+  return image;
+}
+
+Picture scan_out(const gpu::Gpu& gpu) { return scan_out(gpu.vram().pixels(), area_of(gpu.display())); }
+
+}  // namespace
+
+int Presenter::frames_before(const scene::Knobs& knobs) {
+  return knobs.antialias.kind == AntialiasKind::taa ? canvas::jitter_length - 1 : 0;
+}
+
+Picture Presenter::show(const gpu::Gpu& gpu, const scene::Knobs& knobs) {
+  if (knobs.antialias.kind != AntialiasKind::taa) accumulator_ = {};
+  if (gpu.canvas() == nullptr) {
+    if (knobs.antialias.kind != AntialiasKind::fxaa) return scan_out(gpu);
+    return to_picture(canvas::fxaa(to_image(scan_out(gpu))));
+  }
+  const auto image = canvas::resolve(*gpu.canvas(), static_cast<canvas::Reconstruction>(knobs.aa_filter));
+  switch (knobs.antialias.kind) {
+    case AntialiasKind::fxaa:
+      return to_picture(canvas::fxaa(image));
+    case AntialiasKind::taa:
+      return to_picture(accumulator_.add(image));
+    default:
+      return to_picture(image);
+  }
+}
+
+}  // namespace display
