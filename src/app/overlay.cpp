@@ -86,7 +86,7 @@ void draw_status(const WindowState& state, const Status& status, Rect bar, float
   line.add(status.scene, accent_colour);
   line.add(describe(state.knobs), text_colour);
   line.add(with_commas(status.stats.primitives) + " primitives", dim_colour);
-  if (status.different) line.add(with_commas(*status.different) + " pixels differ", mark_colour);
+  if (status.different) line.add(with_commas(*status.different) + " differ", mark_colour);
   line.add(format("GTE %.2f  OT %.2f  raster %.2f ms", status.stats.gte_ms, status.stats.ot_ms,
                   status.stats.raster_ms),
            text_colour);

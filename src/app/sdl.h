@@ -4,6 +4,7 @@
 #include <SDL.h>
 
 #include <memory>
+#include <string>
 
 namespace app {
 
@@ -16,17 +17,21 @@ struct SdlDelete {
 template <class T>
 using Owned = std::unique_ptr<T, SdlDelete>;
 
-/// SDL itself, from init to quit. `ok` false: SDL_GetError() says why.
-struct SdlSession {
-  bool ok;
-  SdlSession() {
-    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");  // Ctrl-C ends the program with 130, as everywhere
-    ok = SDL_Init(SDL_INIT_VIDEO) == 0;
-    if (ok) SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);  // without one the keyboard serves
-  }
+/// SDL itself, from init to quit. A display that nobody can see ("offscreen") counts only if SDL_VIDEODRIVER
+/// asks for it.
+class SdlSession {
+ public:
+  SdlSession();
   ~SdlSession() { SDL_Quit(); }
   SdlSession(const SdlSession&) = delete;
   SdlSession& operator=(const SdlSession&) = delete;
+
+  /// False: error() says why.
+  [[nodiscard]] bool is_open() const { return error_.empty(); }
+  [[nodiscard]] const std::string& error() const { return error_; }
+
+ private:
+  std::string error_;
 };
 
 }  // namespace app

@@ -71,11 +71,8 @@ class Window {
 };
 
 scene::Result<void> Window::open() {
-  const auto failed = [] {
-    return scene::fail(std::string("no window can be opened: ") + SDL_GetError() +
-                       "; `otter render` needs no display");
-  };
-  if (!sdl_.ok) return failed();
+  if (!sdl_.is_open()) return scene::fail(sdl_.error() + "; `otter render` needs none");
+  const auto failed = [] { return scene::fail(std::string("no window could be opened: ") + SDL_GetError()); };
   const auto size = wanted_area(state_.knobs.width, state_.knobs.height, options_.scale);
   window_.reset(SDL_CreateWindow("Otter", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width,
                                  size.height + status_height(1), SDL_WINDOW_RESIZABLE));
