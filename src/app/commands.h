@@ -3,8 +3,8 @@
 // CMakeLists.txt.
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <functional>
-#include <vector>
 
 #include "scene/error.h"
 
@@ -24,6 +24,24 @@ struct Command {
   const char* examples;
 };
 
-inline const std::vector<Command> commands{};
+Action add_list(CLI::App& sub);
+Action add_render(CLI::App& sub);
+Action add_run(CLI::App& sub);
+
+/// In the order in which `otter --help` lists them.
+inline constexpr std::array commands{
+    Command{"run", "open the window", add_run,
+            "  otter run\n"
+            "  otter run cyclic --split\n"
+            "  otter run model.obj --visibility zbuffer --depth 16 --size 640x480\n"},
+    Command{"list", "the built-in scenes and what each shows", add_list,
+            "  otter list --long\n"
+            "  otter list --names\n"},
+    Command{"render", "draw one frame into a PNG, without a window", add_render,
+            "  otter render crates -o crates.png\n"
+            "  otter render cyclic -o cyclic.png --visibility zbuffer --frame 120 --size 640x480\n"
+            "  otter render model.obj -o model.png --buckets 4096 --key farthest\n"
+            "  otter render --all -d pictures\n"},
+};
 
 }  // namespace app

@@ -1,11 +1,12 @@
 // The program: one command line, a table of subcommands.
 
 #include <CLI/CLI.hpp>
-#include <array>
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,10 +31,20 @@ const CLI::App& chosen(const CLI::App& program) {
   return subcommands.empty() ? program : *subcommands.front();
 }
 
+std::string command_names() {
+  std::string names;
+  for (const auto& command : app::commands) names.append(names.empty() ? "" : ", ").append(command.name);
+  return names;
+}
+
+bool is_command(std::string_view name) {
+  const auto has_name = [name](const app::Command& command) { return command.name == name; };
+  return std::any_of(app::commands.begin(), app::commands.end(), has_name);
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Otter draws 3D the way the first PlayStation did: an ordering table, and no depth.",
                    "otter");
-  program.require_subcommand(1);
   program.set_version_flag("--version", "otter " OTTER_VERSION);
   program.set_help_flag("-h,--help", "print this help");
   program.footer("otter COMMAND --help tells more, with examples.");
@@ -46,6 +57,12 @@ int run(int argc, char** argv) {
     actions.emplace_back(sub, command.add(*sub));
   }
 
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty() || (first[0] != '-' && !is_command(first))) {
+    const auto what = first.empty() ? std::string("no command") : first + ": no such command";
+    return complain("otter", what + "; expected one of " + command_names() + " (see otter --help)",
+                    bad_usage);
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {

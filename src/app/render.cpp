@@ -92,7 +92,7 @@ Action add_render(CLI::App& sub) {
   sub.add_option("-o,--output", options->output, "the PNG file to write")->type_name("FILE");
   sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [0]")
       ->type_name("N")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}))
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}).description(""))
       ->take_last();
   sub.add_flag("--all", options->all, "render every scene of `otter list`");
   sub.add_option("-d,--directory", options->directory, "with --all: where to write SCENE.png [out]")

@@ -51,18 +51,18 @@ Action add_run(CLI::App& sub) {
       ->type_name("SCENE|FILE");
   sub.add_option("--pace", options->pace, "frames with the screen, or at a fixed rate [vsync]")
       ->type_name("vsync|60|50")
-      ->check(CLI::IsMember({"vsync", "60", "50"}))
+      ->check(CLI::IsMember({"vsync", "60", "50"}).description(""))
       ->take_last();
   sub.add_option("--scale", window.scale, "screen pixels for each pixel at first [3]")
       ->type_name("1..16")
-      ->check(CLI::Range(1, 16))
+      ->check(CLI::Range(1, 16).description(""))
       ->take_last();
   sub.add_flag("--fullscreen", window.first.fullscreen, "fill the screen");
   sub.add_flag("--split", window.first.split, "begin with both pictures, side by side");
   sub.add_flag("--differences", window.first.differences, "begin with differing pixels marked");
   sub.add_option("--frames", window.frames, "quit after N frames")
       ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000'000))
+      ->check(CLI::Range(1, 1'000'000'000).description(""))
       ->take_last();
   sub.add_option("--screenshot", window.screenshot, "with --frames: write the window's last frame there")
       ->type_name("FILE");
