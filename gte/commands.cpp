@@ -28,15 +28,9 @@ bool cannot_overflow(const Offsets& t) {
 }
 
 /// Translation + matrix * vector, every partial sum checked.
-Sums transform(Limits& limits, const Matrix& m, const Offsets& t, const Vector& x) {
+[[gnu::noinline, gnu::cold]] Sums transform_checked(Limits& limits, const Matrix& m, const Offsets& t,
+                                                    const Vector& x) {
   Sums a{};
-  if (cannot_overflow(t)) [[likely]] {
-    for (std::size_t i = 0; i < 3; ++i) {
-      a[i] = std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]) + product(m[i][1], x[1]) +
-             product(m[i][2], x[2]);
-    }
-    return a;
-  }
   for (std::size_t i = 0; i < 3; ++i) {
     const int component = static_cast<int>(i) + 1;
     a[i] = limits.mac(component, std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]));
@@ -46,8 +40,20 @@ Sums transform(Limits& limits, const Matrix& m, const Offsets& t, const Vector& 
   return a;
 }
 
+[[gnu::always_inline]] inline Sums transform(Limits& limits, const Matrix& m, const Offsets& t,
+                                             const Vector& x) {
+  if (!cannot_overflow(t)) [[unlikely]]
+    return transform_checked(limits, m, t, x);
+  const auto row = [&](std::size_t i) {
+    return std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]) + product(m[i][1], x[1]) +
+           product(m[i][2], x[2]);
+  };
+  return {row(0), row(1), row(2)};
+}
+
 /// The far colour in MVMVA: the hardware loses the first part of the sum, but not its flags.
-Sums transform_far_colour(Limits& limits, const Matrix& m, const Offsets& t, const Vector& x, int shift) {
+[[gnu::noinline]] Sums transform_far_colour(Limits& limits, const Matrix& m, const Offsets& t,
+                                            const Vector& x, int shift) {
   Sums a{};
   for (std::size_t i = 0; i < 3; ++i) {
     const int component = static_cast<int>(i) + 1;
@@ -59,13 +65,31 @@ Sums transform_far_colour(Limits& limits, const Matrix& m, const Offsets& t, con
   return a;
 }
 
-/// MACi and IRi from a sum. IR is limited from the low 32 bits, as the hardware does.
-void store(Registers& r, Limits& limits, Command c, std::size_t i, std::int64_t sum) {
-  r.mac[i] = static_cast<std::int32_t>(sum >> c.shift());
-  r.ir[i] = limits.ir(static_cast<int>(i), r.mac[i], c.lowest_ir());
+/// MAC1..3 and IR1..3 on their way: registers are written once, when a command is done.
+struct Result {
+  std::array<std::int32_t, 3> mac{};
+  Vector ir{};
+};
+
+/// MACi and IRi from sums. IR is limited from the low 32 bits, as the hardware does.
+[[gnu::always_inline]] inline Result shifted(Limits& limits, Command c, const Sums& sums,
+                                             std::int32_t lowest) {
+  Result out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.mac[i] = static_cast<std::int32_t>(sums[i] >> c.shift());
+    out.ir[i] = limits.ir(static_cast<int>(i) + 1, out.mac[i], lowest);
+  }
+  return out;
 }
-void store(Registers& r, Limits& limits, Command c, const Sums& sums) {
-  for (std::size_t i = 0; i < 3; ++i) store(r, limits, c, i + 1, sums[i]);
+[[gnu::always_inline]] inline Result shifted(Limits& limits, Command c, const Sums& sums) {
+  return shifted(limits, c, sums, c.lowest_ir());
+}
+
+void store(Registers& r, const Result& result) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    r.mac[i + 1] = result.mac[i];
+    r.ir[i + 1] = result.ir[i];
+  }
 }
 
 void push_screen(Registers& r, ScreenXy xy) {
@@ -82,22 +106,25 @@ void push_depth(Registers& r, std::uint16_t z) {
 }
 
 /// One vertex of RTPS or RTPT; the quotient is what the depth cue of the last one needs.
-std::uint32_t project(Registers& r, Limits& limits, Command c, const Vertex& v) {
+[[gnu::always_inline]] inline std::uint32_t project(Registers& r, Limits& limits, Command c,
+                                                    const Vertex& v) {
   const Sums a = transform(limits, r.rt, r.tr, vector(v));
-  store(r, limits, c, 1, a[0]);
-  store(r, limits, c, 2, a[1]);
+  const auto mac = [&](std::size_t i) { return static_cast<std::int32_t>(a[i] >> c.shift()); };
+  const std::array<std::int32_t, 3> macs{mac(0), mac(1), mac(2)};
+  const std::int16_t ir1 = limits.ir(1, macs[0], c.lowest_ir());
+  const std::int16_t ir2 = limits.ir(2, macs[1], c.lowest_ir());
   const auto z = static_cast<std::int32_t>(a[2] >> 12);
   limits.ir(3, z, -0x8000);  // FLAG looks at >> 12 whatever sf and lm say, IR3 does not
-  r.mac[3] = static_cast<std::int32_t>(a[2] >> c.shift());
-  r.ir[3] = static_cast<std::int16_t>(std::clamp(r.mac[3], c.lowest_ir(), 0x7fff));
-  push_depth(r, limits.depth(z));
+  const std::uint16_t sz3 = limits.depth(z);
 
-  const Quotient q = divide(r.h, r.sz[3]);
+  const Quotient q = divide(r.h, sz3);
   limits.bits |= q.overflow ? flag::divide_overflow : 0;
-  const std::int64_t x = r.ofx.raw + std::int64_t{q.value} * r.ir[1];
-  const std::int64_t y = r.ofy.raw + std::int64_t{q.value} * r.ir[2];
+  const std::int64_t x = r.ofx.raw + std::int64_t{q.value} * ir1;
+  const std::int64_t y = r.ofy.raw + std::int64_t{q.value} * ir2;
   limits.mac0(x);
   limits.mac0(y);
+  store(r, {macs, {ir1, ir2, static_cast<std::int16_t>(std::clamp(macs[2], c.lowest_ir(), 0x7fff))}});
+  push_depth(r, sz3);
   push_screen(r, {limits.screen_x(x >> 16), limits.screen_y(y >> 16)});
   return q.value;
 }
@@ -108,41 +135,42 @@ void depth_cue(Registers& r, Limits& limits, std::uint32_t quotient) {
   r.ir[0] = limits.ir0(p >> 12);
 }
 
-void push_colour(Registers& r, Limits& limits) {
+[[gnu::always_inline]] inline void push_colour(Registers& r, Limits& limits, const Result& result) {
+  const Colour newest{limits.colour(1, result.mac[0]), limits.colour(2, result.mac[1]),
+                      limits.colour(3, result.mac[2]), r.rgbc.code};
   r.rgb[0] = r.rgb[1];
   r.rgb[1] = r.rgb[2];
-  r.rgb[2] = {limits.colour(1, r.mac[1]), limits.colour(2, r.mac[2]), limits.colour(3, r.mac[3]),
-              r.rgbc.code};
+  r.rgb[2] = newest;
 }
 
-void light(Registers& r, Limits& limits, Command c, std::size_t k) {
-  store(r, limits, c, transform(limits, r.llm, {}, vector(r.v[k])));
+Result light(const Registers& r, Limits& limits, Command c, std::size_t k) {
+  return shifted(limits, c, transform(limits, r.llm, {}, vector(r.v[k])));
 }
 
-void colour(Registers& r, Limits& limits, Command c) {
-  store(r, limits, c, transform(limits, r.lcm, raw(r.bk), ir_vector(r)));
+Result colour(const Registers& r, Limits& limits, Command c, const Vector& ir) {
+  return shifted(limits, c, transform(limits, r.lcm, raw(r.bk), ir));
 }
 
 /// The primitive's colour times IR1..3.
-Sums modulated(const Registers& r) {
-  const auto term = [](std::uint8_t channel, std::int16_t ir) { return std::int64_t{channel} * ir * 16; };
-  return {term(r.rgbc.r, r.ir[1]), term(r.rgbc.g, r.ir[2]), term(r.rgbc.b, r.ir[3])};
+Sums modulated(const Registers& r, const Vector& ir) {
+  const auto term = [](std::uint8_t channel, std::int16_t x) { return std::int64_t{channel} * x * 16; };
+  return {term(r.rgbc.r, ir[0]), term(r.rgbc.g, ir[1]), term(r.rgbc.b, ir[2])};
 }
 
 Sums from_bytes(Colour c) {
   return {std::int64_t{c.r} << 16, std::int64_t{c.g} << 16, std::int64_t{c.b} << 16};
 }
 
-/// Moves `in` toward the far colour by IR0.
-void cue(Registers& r, Limits& limits, Command c, const Sums& in) {
-  Sums out{};
+/// Moves `in` toward the far colour by IR0. `in` is below 2^28, so neither sum comes near 44 bits unless FC
+/// does.
+[[gnu::always_inline]] inline Result cue(const Registers& r, Limits& limits, Command c, const Sums& in) {
+  Sums distance{}, out{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const int component = static_cast<int>(i) + 1;
-    const std::int64_t distance = limits.mac(component, std::int64_t{r.fc[i].raw} * 4096 - in[i]);
-    const auto ir = limits.ir(component, static_cast<std::int32_t>(distance >> c.shift()), -0x8000);
-    out[i] = limits.mac(component, in[i] + std::int64_t{ir} * r.ir[0]);
+    distance[i] = limits.mac(static_cast<int>(i) + 1, std::int64_t{r.fc[i].raw} * 4096 - in[i]);
   }
-  store(r, limits, c, out);
+  const Result toward = shifted(limits, c, distance, -0x8000);
+  for (std::size_t i = 0; i < 3; ++i) out[i] = in[i] + std::int64_t{toward.ir[i]} * r.ir[0];
+  return shifted(limits, c, out);
 }
 
 }  // namespace
@@ -219,11 +247,17 @@ std::array<std::int32_t, 3> mvmva_translation(const Registers& r, Command c) {
 
 void mvmva(Registers& r, Command c) {
   Limits limits;
-  const Matrix m = mvmva_matrix(r, c);
-  const Offsets t = mvmva_translation(r, c);
   const Vector x = c.v() == 3 ? ir_vector(r) : vector(r.v[c.v()]);
-  store(r, limits, c,
-        c.cv() == 2 ? transform_far_colour(limits, m, t, x, c.shift()) : transform(limits, m, t, x));
+  const Matrix garbage = c.mx() == 3 ? mvmva_matrix(r, c) : Matrix{};
+  const Matrix& m = *std::array<const Matrix*, 4>{&r.rt, &r.llm, &r.lcm, &garbage}[c.mx()];
+  Sums sums;
+  switch (c.cv()) {
+    case 0: sums = transform(limits, m, r.tr, x); break;
+    case 1: sums = transform(limits, m, raw(r.bk), x); break;
+    case 2: sums = transform_far_colour(limits, m, raw(r.fc), x, c.shift()); break;
+    default: sums = transform(limits, m, {}, x); break;
+  }
+  store(r, shifted(limits, c, sums));
   r.flag = limits.finish();
 }
 
@@ -234,95 +268,113 @@ void op(Registers& r, Command c) {
   const auto cross = [&](std::size_t i, std::size_t j) {
     return std::int64_t{d[i]} * x[j] - std::int64_t{d[j]} * x[i];
   };
-  store(r, limits, c, {cross(1, 2), cross(2, 0), cross(0, 1)});
+  store(r, shifted(limits, c, {cross(1, 2), cross(2, 0), cross(0, 1)}));
   r.flag = limits.finish();
 }
 
 void sqr(Registers& r, Command c) {
   Limits limits;
-  for (std::size_t i = 1; i <= 3; ++i) store(r, limits, c, i, std::int64_t{r.ir[i]} * r.ir[i]);
+  const auto square = [&](std::size_t i) { return std::int64_t{r.ir[i]} * r.ir[i]; };
+  store(r, shifted(limits, c, {square(1), square(2), square(3)}));
   r.flag = limits.finish();
 }
 
 void gpf(Registers& r, Command c) {
   Limits limits;
-  for (std::size_t i = 1; i <= 3; ++i) store(r, limits, c, i, std::int64_t{r.ir[0]} * r.ir[i]);
-  push_colour(r, limits);
+  const auto scaled = [&](std::size_t i) { return std::int64_t{r.ir[0]} * r.ir[i]; };
+  const Result out = shifted(limits, c, {scaled(1), scaled(2), scaled(3)});
+  store(r, out);
+  push_colour(r, limits, out);
   r.flag = limits.finish();
 }
 
 void gpl(Registers& r, Command c) {
   Limits limits;
-  for (std::size_t i = 1; i <= 3; ++i) {
+  const auto added = [&](std::size_t i) {
     const std::int64_t base = std::int64_t{r.mac[i]} * (std::int64_t{1} << c.shift());
-    store(r, limits, c, i, limits.mac(static_cast<int>(i), base + std::int64_t{r.ir[0]} * r.ir[i]));
-  }
-  push_colour(r, limits);
+    return limits.mac(static_cast<int>(i), base + std::int64_t{r.ir[0]} * r.ir[i]);
+  };
+  const Result out = shifted(limits, c, {added(1), added(2), added(3)});
+  store(r, out);
+  push_colour(r, limits, out);
   r.flag = limits.finish();
 }
 
 namespace {
 
-/// What a light or depth cue command does with one vertex between FLAG = 0 and the push.
-using Steps = void (*)(Registers&, Limits&, Command, std::size_t k);
-
-template <Steps steps, std::size_t count = 1>
-void coloured(Registers& r, Command c) {
+/// A light or depth cue command: its steps, then the push, once for each of its vertices.
+template <std::size_t count = 1, class Steps>
+[[gnu::always_inline]] inline void coloured(Registers& r, const Steps& steps) {
   Limits limits;
+  Result out;
   for (std::size_t k = 0; k < count; ++k) {
-    steps(r, limits, c, k);
-    push_colour(r, limits);
+    out = steps(limits, k);
+    push_colour(r, limits, out);
   }
+  store(r, out);
   r.flag = limits.finish();
 }
 
-void lit(Registers& r, Limits& limits, Command c, std::size_t k) {
-  light(r, limits, c, k);
-  colour(r, limits, c);
+[[gnu::always_inline]] inline Result lit(const Registers& r, Limits& limits, Command c, std::size_t k) {
+  return colour(r, limits, c, light(r, limits, c, k).ir);
 }
-void modulate(Registers& r, Limits& limits, Command c, std::size_t) { store(r, limits, c, modulated(r)); }
-void cue_colour(Registers& r, Limits& limits, Command c, std::size_t) { cue(r, limits, c, modulated(r)); }
-void cue_primitive(Registers& r, Limits& limits, Command c, std::size_t) {
-  cue(r, limits, c, from_bytes(r.rgbc));
+
+template <std::size_t count>
+void lit_only(Registers& r, Command c) {
+  coloured<count>(r, [&](Limits& limits, std::size_t k) { return lit(r, limits, c, k); });
 }
-void cue_oldest(Registers& r, Limits& limits, Command c, std::size_t) {
-  cue(r, limits, c, from_bytes(r.rgb[0]));
+template <std::size_t count>
+void lit_modulated(Registers& r, Command c) {
+  coloured<count>(r, [&](Limits& limits, std::size_t k) {
+    return shifted(limits, c, modulated(r, lit(r, limits, c, k).ir));
+  });
 }
-void cue_ir(Registers& r, Limits& limits, Command c, std::size_t) {
-  cue(r, limits, c,
-      {std::int64_t{r.ir[1]} * 4096, std::int64_t{r.ir[2]} * 4096, std::int64_t{r.ir[3]} * 4096});
-}
-void lit_modulated(Registers& r, Limits& limits, Command c, std::size_t k) {
-  lit(r, limits, c, k);
-  modulate(r, limits, c, k);
-}
-void lit_cued(Registers& r, Limits& limits, Command c, std::size_t k) {
-  lit(r, limits, c, k);
-  cue_colour(r, limits, c, k);
-}
-void colour_modulated(Registers& r, Limits& limits, Command c, std::size_t k) {
-  colour(r, limits, c);
-  modulate(r, limits, c, k);
-}
-void colour_cued(Registers& r, Limits& limits, Command c, std::size_t k) {
-  colour(r, limits, c);
-  cue_colour(r, limits, c, k);
+template <std::size_t count>
+void lit_cued(Registers& r, Command c) {
+  coloured<count>(r, [&](Limits& limits, std::size_t k) {
+    return cue(r, limits, c, modulated(r, lit(r, limits, c, k).ir));
+  });
 }
 
 }  // namespace
 
-void ncs(Registers& r, Command c) { coloured<lit>(r, c); }
-void nct(Registers& r, Command c) { coloured<lit, 3>(r, c); }
-void nccs(Registers& r, Command c) { coloured<lit_modulated>(r, c); }
-void ncct(Registers& r, Command c) { coloured<lit_modulated, 3>(r, c); }
-void ncds(Registers& r, Command c) { coloured<lit_cued>(r, c); }
-void ncdt(Registers& r, Command c) { coloured<lit_cued, 3>(r, c); }
-void cc(Registers& r, Command c) { coloured<colour_modulated>(r, c); }
-void cdp(Registers& r, Command c) { coloured<colour_cued>(r, c); }
-void dcpl(Registers& r, Command c) { coloured<cue_colour>(r, c); }
-void dpcs(Registers& r, Command c) { coloured<cue_primitive>(r, c); }
-void dpct(Registers& r, Command c) { coloured<cue_oldest, 3>(r, c); }
-void intpl(Registers& r, Command c) { coloured<cue_ir>(r, c); }
+void ncs(Registers& r, Command c) { lit_only<1>(r, c); }
+void nct(Registers& r, Command c) { lit_only<3>(r, c); }
+void nccs(Registers& r, Command c) { lit_modulated<1>(r, c); }
+void ncct(Registers& r, Command c) { lit_modulated<3>(r, c); }
+void ncds(Registers& r, Command c) { lit_cued<1>(r, c); }
+void ncdt(Registers& r, Command c) { lit_cued<3>(r, c); }
+
+void cc(Registers& r, Command c) {
+  coloured(r, [&](Limits& limits, std::size_t) {
+    return shifted(limits, c, modulated(r, colour(r, limits, c, ir_vector(r)).ir));
+  });
+}
+
+void cdp(Registers& r, Command c) {
+  coloured(r, [&](Limits& limits, std::size_t) {
+    return cue(r, limits, c, modulated(r, colour(r, limits, c, ir_vector(r)).ir));
+  });
+}
+
+void dcpl(Registers& r, Command c) {
+  coloured(r, [&](Limits& limits, std::size_t) { return cue(r, limits, c, modulated(r, ir_vector(r))); });
+}
+
+void dpcs(Registers& r, Command c) {
+  coloured(r, [&](Limits& limits, std::size_t) { return cue(r, limits, c, from_bytes(r.rgbc)); });
+}
+
+void dpct(Registers& r, Command c) {  // each push moves the next colour into RGB0
+  coloured<3>(r, [&](Limits& limits, std::size_t) { return cue(r, limits, c, from_bytes(r.rgb[0])); });
+}
+
+void intpl(Registers& r, Command c) {
+  coloured(r, [&](Limits& limits, std::size_t) {
+    const auto widened = [&](std::size_t i) { return std::int64_t{r.ir[i]} * 4096; };
+    return cue(r, limits, c, {widened(1), widened(2), widened(3)});
+  });
+}
 
 namespace {
 

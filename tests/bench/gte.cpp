@@ -101,15 +101,8 @@ struct Row {
   }
 };
 
-// ---- one at a time, as an emulator's interpreter drives it: register numbers are only known at run time
-// ---------------
-
-[[gnu::noinline]] void mtc2(gte::Registers& r, unsigned number, std::uint32_t value) {
-  gte::write(r, number, value);
-}
-[[gnu::noinline]] std::uint32_t mfc2(const gte::Registers& r, unsigned number) {
-  return gte::read(r, number);
-}
+// ---- one at a time, as an emulator drives it: registers in by number, the command word executed, registers
+// out ------------
 
 std::uint32_t sink;
 
@@ -127,45 +120,46 @@ void add_single_rows(std::vector<Row>& rows, const Workload& w) {
     };
   };
   const auto load = [&w](unsigned at, std::size_t i) {
-    mtc2(r, 2 * at, xy(w.vertices[i]));
-    mtc2(r, 2 * at + 1, z(w.vertices[i]));
+    gte::write(r, 2 * at, xy(w.vertices[i]));
+    gte::write(r, 2 * at + 1, z(w.vertices[i]));
   };
   rows.push_back({"RTPS", "single", "vertices", count, 41, loop([load](std::size_t i) {
                     load(0, i);
                     execute(r, gte::sdk::rtps);
-                    return mfc2(r, 14) + mfc2(r, 19) + mfc2(r, 63);
+                    return gte::read(r, 14) + gte::read(r, 19) + gte::read(r, 63);
                   })});
   rows.push_back({"RTPT+NCLIP+AVSZ3", "single", "triangles", count, 17, loop([load](std::size_t i) {
                     for (unsigned k = 0; k < 3; ++k) load(k, 3 * i + k);
                     execute(r, gte::sdk::rtpt);
-                    std::uint32_t sum = mfc2(r, 63) + mfc2(r, 12) + mfc2(r, 13) + mfc2(r, 14);
+                    std::uint32_t sum =
+                        gte::read(r, 63) + gte::read(r, 12) + gte::read(r, 13) + gte::read(r, 14);
                     execute(r, gte::sdk::nclip);
-                    sum += mfc2(r, 24);
+                    sum += gte::read(r, 24);
                     execute(r, gte::sdk::avsz3);
-                    return sum + mfc2(r, 7);
+                    return sum + gte::read(r, 7);
                   })});
   const auto colour = [&w](std::size_t i, gte::Command c) {
-    mtc2(r, 0, xy(w.normals[i]));
-    mtc2(r, 1, z(w.normals[i]));
-    mtc2(r, 6, gte::detail::word(w.colours[i]));
-    mtc2(r, 8, gte::detail::extend(w.ir0[i]));
+    gte::write(r, 0, xy(w.normals[i]));
+    gte::write(r, 1, z(w.normals[i]));
+    gte::write(r, 6, gte::detail::word(w.colours[i]));
+    gte::write(r, 8, gte::detail::extend(w.ir0[i]));
     execute(r, c);
-    return mfc2(r, 22) + mfc2(r, 63);
+    return gte::read(r, 22) + gte::read(r, 63);
   };
   rows.push_back({"NCDS", "single", "normals", count, 32,
                   loop([colour](std::size_t i) { return colour(i, gte::sdk::ncds); })});
   rows.push_back({"NCCS", "single", "normals", count, 0,
                   loop([colour](std::size_t i) { return colour(i, gte::sdk::nccs); })});
   rows.push_back({"DPCS", "single", "colours", count, 104, loop([&w](std::size_t i) {
-                    mtc2(r, 6, gte::detail::word(w.colours[i]));
-                    mtc2(r, 8, gte::detail::extend(w.ir0[i]));
+                    gte::write(r, 6, gte::detail::word(w.colours[i]));
+                    gte::write(r, 8, gte::detail::extend(w.ir0[i]));
                     execute(r, gte::sdk::dpcs);
-                    return mfc2(r, 22) + mfc2(r, 63);
+                    return gte::read(r, 22) + gte::read(r, 63);
                   })});
   rows.push_back({"MVMVA", "single", "vectors", count, 111, loop([load](std::size_t i) {
                     load(0, i);
                     execute(r, gte::sdk::mvmva.word | (1u << 19));
-                    return mfc2(r, 25) + mfc2(r, 26) + mfc2(r, 27);
+                    return gte::read(r, 25) + gte::read(r, 26) + gte::read(r, 27);
                   })});
 }
 
