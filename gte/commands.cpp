@@ -71,25 +71,45 @@ struct Result {
   Vector ir{};
 };
 
-/// MACi and IRi from sums. IR is limited from the low 32 bits, as the hardware does.
-[[gnu::always_inline]] inline Result shifted(Limits& limits, Command c, const Sums& sums,
+[[gnu::always_inline]] inline Result limited(Limits& limits, const std::array<std::int32_t, 3>& mac,
                                              std::int32_t lowest) {
-  Result out;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.mac[i] = static_cast<std::int32_t>(sums[i] >> c.shift());
-    out.ir[i] = limits.ir(static_cast<int>(i) + 1, out.mac[i], lowest);
-  }
-  return out;
+  return {mac, {limits.ir(1, mac[0], lowest), limits.ir(2, mac[1], lowest), limits.ir(3, mac[2], lowest)}};
 }
-[[gnu::always_inline]] inline Result shifted(Limits& limits, Command c, const Sums& sums) {
-  return shifted(limits, c, sums, c.lowest_ir());
+[[gnu::noinline, gnu::cold]] Result limited_rarely(Limits& limits, const std::array<std::int32_t, 3>& mac,
+                                                   std::int32_t lowest) {
+  return limited(limits, mac, lowest);
 }
 
-void store(Registers& r, const Result& result) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    r.mac[i + 1] = result.mac[i];
-    r.ir[i + 1] = result.ir[i];
+[[gnu::always_inline]] inline std::array<std::int32_t, 3> shifted(Command c, const Sums& sums) {
+  const auto mac = [&](std::size_t i) { return static_cast<std::int32_t>(sums[i] >> c.shift()); };
+  return {mac(0), mac(1), mac(2)};
+}
+
+/// MACi and IRi from sums. IR is limited from the low 32 bits, as the hardware does. One test tells that
+/// nothing is to be limited: MAC - lowest has no bit above those of 7FFFh - lowest, which is 7FFFh or FFFFh.
+[[gnu::always_inline]] inline Result result(Limits& limits, Command c, const Sums& sums,
+                                            std::int32_t lowest) {
+  const std::array<std::int32_t, 3> mac = shifted(c, sums);
+  const auto above = [&](std::int32_t m) {
+    return static_cast<std::uint32_t>(m) - static_cast<std::uint32_t>(lowest);
+  };
+  if (((above(mac[0]) | above(mac[1]) | above(mac[2])) & ~above(0x7fff)) != 0) [[unlikely]] {
+    return limited_rarely(limits, mac, lowest);
   }
+  const auto ir = [&](std::size_t i) { return static_cast<std::int16_t>(mac[i]); };
+  return {mac, {ir(0), ir(1), ir(2)}};
+}
+[[gnu::always_inline]] inline Result result(Limits& limits, Command c, const Sums& sums) {
+  return result(limits, c, sums, c.lowest_ir());
+}
+
+[[gnu::always_inline]] inline void store(Registers& r, const Result& out) {
+  r.mac[1] = out.mac[0];
+  r.mac[2] = out.mac[1];
+  r.mac[3] = out.mac[2];
+  r.ir[1] = out.ir[0];
+  r.ir[2] = out.ir[1];
+  r.ir[3] = out.ir[2];
 }
 
 void push_screen(Registers& r, ScreenXy xy) {
@@ -135,20 +155,30 @@ void depth_cue(Registers& r, Limits& limits, std::uint32_t quotient) {
   r.ir[0] = limits.ir0(p >> 12);
 }
 
-[[gnu::always_inline]] inline void push_colour(Registers& r, Limits& limits, const Result& result) {
-  const Colour newest{limits.colour(1, result.mac[0]), limits.colour(2, result.mac[1]),
-                      limits.colour(3, result.mac[2]), r.rgbc.code};
+[[gnu::always_inline]] inline void push_colour(Registers& r, Limits& limits, const Result& pushed) {
+  // One store of 32 bits: four of a byte each would make whoever reads the colour back wait for all of them.
+  const auto bits = [&](std::size_t i) { return static_cast<std::uint32_t>(pushed.mac[i]); };
+  std::uint32_t newest = 0;
+  if (((bits(0) | bits(1) | bits(2)) & ~0xfffu) == 0) [[likely]] {
+    newest = bits(0) >> 4 | (bits(1) & 0xff0) << 4 | (bits(2) & 0xff0) << 12;
+  } else {
+    newest = std::uint32_t{limits.colour(1, pushed.mac[0])} |
+             std::uint32_t{limits.colour(2, pushed.mac[1])} << 8 |
+             std::uint32_t{limits.colour(3, pushed.mac[2])} << 16;
+  }
+  newest |= std::uint32_t{r.rgbc.code} << 24;
   r.rgb[0] = r.rgb[1];
   r.rgb[1] = r.rgb[2];
-  r.rgb[2] = newest;
+  r.rgb[2] = detail::colour(newest);
 }
 
 Result light(const Registers& r, Limits& limits, Command c, std::size_t k) {
-  return shifted(limits, c, transform(limits, r.llm, {}, vector(r.v[k])));
+  // Never by a branch: half of all normals look away from a light, in no order a processor could learn.
+  return limited(limits, shifted(c, transform(limits, r.llm, {}, vector(r.v[k]))), c.lowest_ir());
 }
 
 Result colour(const Registers& r, Limits& limits, Command c, const Vector& ir) {
-  return shifted(limits, c, transform(limits, r.lcm, raw(r.bk), ir));
+  return result(limits, c, transform(limits, r.lcm, raw(r.bk), ir));
 }
 
 /// The primitive's colour times IR1..3.
@@ -164,13 +194,14 @@ Sums from_bytes(Colour c) {
 /// Moves `in` toward the far colour by IR0. `in` is below 2^28, so neither sum comes near 44 bits unless FC
 /// does.
 [[gnu::always_inline]] inline Result cue(const Registers& r, Limits& limits, Command c, const Sums& in) {
-  Sums distance{}, out{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    distance[i] = limits.mac(static_cast<int>(i) + 1, std::int64_t{r.fc[i].raw} * 4096 - in[i]);
+  const auto distance = [&](std::size_t i) { return std::int64_t{r.fc[i].raw} * 4096 - in[i]; };
+  Sums distances{distance(0), distance(1), distance(2)};
+  if (!cannot_overflow(raw(r.fc))) [[unlikely]] {
+    distances = {limits.mac(1, distances[0]), limits.mac(2, distances[1]), limits.mac(3, distances[2])};
   }
-  const Result toward = shifted(limits, c, distance, -0x8000);
-  for (std::size_t i = 0; i < 3; ++i) out[i] = in[i] + std::int64_t{toward.ir[i]} * r.ir[0];
-  return shifted(limits, c, out);
+  const Vector ir = result(limits, c, distances, -0x8000).ir;
+  const auto moved = [&](std::size_t i) { return in[i] + std::int64_t{ir[i]} * r.ir[0]; };
+  return result(limits, c, {moved(0), moved(1), moved(2)});
 }
 
 }  // namespace
@@ -252,12 +283,20 @@ void mvmva(Registers& r, Command c) {
   const Matrix& m = *std::array<const Matrix*, 4>{&r.rt, &r.llm, &r.lcm, &garbage}[c.mx()];
   Sums sums;
   switch (c.cv()) {
-    case 0: sums = transform(limits, m, r.tr, x); break;
-    case 1: sums = transform(limits, m, raw(r.bk), x); break;
-    case 2: sums = transform_far_colour(limits, m, raw(r.fc), x, c.shift()); break;
-    default: sums = transform(limits, m, {}, x); break;
+    case 0:
+      sums = transform(limits, m, r.tr, x);
+      break;
+    case 1:
+      sums = transform(limits, m, raw(r.bk), x);
+      break;
+    case 2:
+      sums = transform_far_colour(limits, m, raw(r.fc), x, c.shift());
+      break;
+    default:
+      sums = transform(limits, m, {}, x);
+      break;
   }
-  store(r, shifted(limits, c, sums));
+  store(r, result(limits, c, sums));
   r.flag = limits.finish();
 }
 
@@ -268,21 +307,21 @@ void op(Registers& r, Command c) {
   const auto cross = [&](std::size_t i, std::size_t j) {
     return std::int64_t{d[i]} * x[j] - std::int64_t{d[j]} * x[i];
   };
-  store(r, shifted(limits, c, {cross(1, 2), cross(2, 0), cross(0, 1)}));
+  store(r, result(limits, c, {cross(1, 2), cross(2, 0), cross(0, 1)}));
   r.flag = limits.finish();
 }
 
 void sqr(Registers& r, Command c) {
   Limits limits;
   const auto square = [&](std::size_t i) { return std::int64_t{r.ir[i]} * r.ir[i]; };
-  store(r, shifted(limits, c, {square(1), square(2), square(3)}));
+  store(r, result(limits, c, {square(1), square(2), square(3)}));
   r.flag = limits.finish();
 }
 
 void gpf(Registers& r, Command c) {
   Limits limits;
   const auto scaled = [&](std::size_t i) { return std::int64_t{r.ir[0]} * r.ir[i]; };
-  const Result out = shifted(limits, c, {scaled(1), scaled(2), scaled(3)});
+  const Result out = result(limits, c, {scaled(1), scaled(2), scaled(3)});
   store(r, out);
   push_colour(r, limits, out);
   r.flag = limits.finish();
@@ -294,7 +333,7 @@ void gpl(Registers& r, Command c) {
     const std::int64_t base = std::int64_t{r.mac[i]} * (std::int64_t{1} << c.shift());
     return limits.mac(static_cast<int>(i), base + std::int64_t{r.ir[0]} * r.ir[i]);
   };
-  const Result out = shifted(limits, c, {added(1), added(2), added(3)});
+  const Result out = result(limits, c, {added(1), added(2), added(3)});
   store(r, out);
   push_colour(r, limits, out);
   r.flag = limits.finish();
@@ -306,12 +345,11 @@ namespace {
 template <std::size_t count = 1, class Steps>
 [[gnu::always_inline]] inline void coloured(Registers& r, const Steps& steps) {
   Limits limits;
-  Result out;
   for (std::size_t k = 0; k < count; ++k) {
-    out = steps(limits, k);
+    const Result out = steps(limits, k);
     push_colour(r, limits, out);
+    if (k + 1 == count) store(r, out);
   }
-  store(r, out);
   r.flag = limits.finish();
 }
 
@@ -326,7 +364,7 @@ void lit_only(Registers& r, Command c) {
 template <std::size_t count>
 void lit_modulated(Registers& r, Command c) {
   coloured<count>(r, [&](Limits& limits, std::size_t k) {
-    return shifted(limits, c, modulated(r, lit(r, limits, c, k).ir));
+    return result(limits, c, modulated(r, lit(r, limits, c, k).ir));
   });
 }
 template <std::size_t count>
@@ -347,7 +385,7 @@ void ncdt(Registers& r, Command c) { lit_cued<3>(r, c); }
 
 void cc(Registers& r, Command c) {
   coloured(r, [&](Limits& limits, std::size_t) {
-    return shifted(limits, c, modulated(r, colour(r, limits, c, ir_vector(r)).ir));
+    return result(limits, c, modulated(r, colour(r, limits, c, ir_vector(r)).ir));
   });
 }
 

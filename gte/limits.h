@@ -38,7 +38,6 @@ struct Limits {
 
   /// MAC1..3 into IR1..3: `lowest` is 0 where the command says lm, else -8000h.
   std::int16_t ir(int component, std::int32_t mac_value, std::int32_t lowest) {
-    // No branch: half of all normals look away from a light, in no order a processor could learn.
     const std::int32_t raised = mac_value < lowest ? lowest : mac_value;
     const std::int32_t kept = raised > 0x7fff ? 0x7fff : raised;
     bits |= static_cast<std::uint32_t>(kept != mac_value) * (flag::ir1_saturated >> (component - 1));
