@@ -28,8 +28,12 @@ bool cannot_overflow(const Offsets& t) {
 }
 
 /// Translation + matrix * vector, every partial sum checked.
-[[gnu::noinline, gnu::cold]] Sums transform_checked(Limits& limits, const Matrix& m, const Offsets& t,
-                                                    const Vector& x) {
+struct Checked {
+  std::uint32_t bits = 0;
+  Sums sums{};
+};
+[[gnu::noinline, gnu::cold]] Checked transform_checked(const Matrix& m, const Offsets& t, const Vector& x) {
+  Limits limits;
   Sums a{};
   for (std::size_t i = 0; i < 3; ++i) {
     const int component = static_cast<int>(i) + 1;
@@ -37,13 +41,18 @@ bool cannot_overflow(const Offsets& t) {
     a[i] = limits.mac(component, a[i] + product(m[i][1], x[1]));
     a[i] = limits.mac(component, a[i] + product(m[i][2], x[2]));
   }
-  return a;
+  return {limits.bits, a};
 }
 
 [[gnu::always_inline]] inline Sums transform(Limits& limits, const Matrix& m, const Offsets& t,
                                              const Vector& x) {
-  if (!cannot_overflow(t)) [[unlikely]]
-    return transform_checked(limits, m, t, x);
+  if (!cannot_overflow(t)) [[unlikely]] {
+    const Vector copy = x;
+    const Offsets offsets = t;
+    const Checked checked = transform_checked(m, offsets, copy);
+    limits.bits |= checked.bits;
+    return checked.sums;
+  }
   const auto row = [&](std::size_t i) {
     return std::int64_t{t[i]} * 4096 + product(m[i][0], x[0]) + product(m[i][1], x[1]) +
            product(m[i][2], x[2]);
@@ -65,22 +74,36 @@ bool cannot_overflow(const Offsets& t) {
   return a;
 }
 
-/// MAC1..3 and IR1..3 on their way: registers are written once, when a command is done.
-struct Result {
-  std::array<std::int32_t, 3> mac{};
-  Vector ir{};
+/// Three of a kind by name: an array would be copied through memory where this stays in CPU registers.
+template <class T>
+struct Three {
+  T x{}, y{}, z{};
 };
 
-[[gnu::always_inline]] inline Result limited(Limits& limits, const std::array<std::int32_t, 3>& mac,
-                                             std::int32_t lowest) {
-  return {mac, {limits.ir(1, mac[0], lowest), limits.ir(2, mac[1], lowest), limits.ir(3, mac[2], lowest)}};
+/// MAC1..3 and IR1..3 on their way: registers are written once, when a command is done.
+struct Result {
+  Three<std::int32_t> mac{};
+  Three<std::int16_t> ir{};
+};
+
+Vector vector(const Three<std::int16_t>& v) { return {v.x, v.y, v.z}; }
+
+[[gnu::always_inline]] inline Result limited(Limits& limits, Three<std::int32_t> mac, std::int32_t lowest) {
+  return {mac, {limits.ir(1, mac.x, lowest), limits.ir(2, mac.y, lowest), limits.ir(3, mac.z, lowest)}};
 }
-[[gnu::noinline, gnu::cold]] Result limited_rarely(Limits& limits, const std::array<std::int32_t, 3>& mac,
-                                                   std::int32_t lowest) {
-  return limited(limits, mac, lowest);
+/// The same where it is the exception. Values in, values out: a reference would keep the usual case in memory
+/// too.
+struct Exception {
+  std::uint32_t bits = 0;
+  Three<std::int16_t> ir{};
+};
+[[gnu::noinline, gnu::cold]] Exception limited_rarely(Three<std::int32_t> mac, std::int32_t lowest) {
+  Limits limits;
+  const Three<std::int16_t> ir = limited(limits, mac, lowest).ir;
+  return {limits.bits, ir};
 }
 
-[[gnu::always_inline]] inline std::array<std::int32_t, 3> shifted(Command c, const Sums& sums) {
+[[gnu::always_inline]] inline Three<std::int32_t> shifted(Command c, const Sums& sums) {
   const auto mac = [&](std::size_t i) { return static_cast<std::int32_t>(sums[i] >> c.shift()); };
   return {mac(0), mac(1), mac(2)};
 }
@@ -89,27 +112,29 @@ struct Result {
 /// nothing is to be limited: MAC - lowest has no bit above those of 7FFFh - lowest, which is 7FFFh or FFFFh.
 [[gnu::always_inline]] inline Result result(Limits& limits, Command c, const Sums& sums,
                                             std::int32_t lowest) {
-  const std::array<std::int32_t, 3> mac = shifted(c, sums);
+  const Three<std::int32_t> mac = shifted(c, sums);
   const auto above = [&](std::int32_t m) {
     return static_cast<std::uint32_t>(m) - static_cast<std::uint32_t>(lowest);
   };
-  if (((above(mac[0]) | above(mac[1]) | above(mac[2])) & ~above(0x7fff)) != 0) [[unlikely]] {
-    return limited_rarely(limits, mac, lowest);
+  if (((above(mac.x) | above(mac.y) | above(mac.z)) & ~above(0x7fff)) != 0) [[unlikely]] {
+    const Exception rare = limited_rarely(mac, lowest);
+    limits.bits |= rare.bits;
+    return {mac, rare.ir};
   }
-  const auto ir = [&](std::size_t i) { return static_cast<std::int16_t>(mac[i]); };
-  return {mac, {ir(0), ir(1), ir(2)}};
+  const auto ir = [](std::int32_t m) { return static_cast<std::int16_t>(m); };
+  return {mac, {ir(mac.x), ir(mac.y), ir(mac.z)}};
 }
 [[gnu::always_inline]] inline Result result(Limits& limits, Command c, const Sums& sums) {
   return result(limits, c, sums, c.lowest_ir());
 }
 
 [[gnu::always_inline]] inline void store(Registers& r, const Result& out) {
-  r.mac[1] = out.mac[0];
-  r.mac[2] = out.mac[1];
-  r.mac[3] = out.mac[2];
-  r.ir[1] = out.ir[0];
-  r.ir[2] = out.ir[1];
-  r.ir[3] = out.ir[2];
+  r.mac[1] = out.mac.x;
+  r.mac[2] = out.mac.y;
+  r.mac[3] = out.mac.z;
+  r.ir[1] = out.ir.x;
+  r.ir[2] = out.ir.y;
+  r.ir[3] = out.ir.z;
 }
 
 void push_screen(Registers& r, ScreenXy xy) {
@@ -129,10 +154,9 @@ void push_depth(Registers& r, std::uint16_t z) {
 [[gnu::always_inline]] inline std::uint32_t project(Registers& r, Limits& limits, Command c,
                                                     const Vertex& v) {
   const Sums a = transform(limits, r.rt, r.tr, vector(v));
-  const auto mac = [&](std::size_t i) { return static_cast<std::int32_t>(a[i] >> c.shift()); };
-  const std::array<std::int32_t, 3> macs{mac(0), mac(1), mac(2)};
-  const std::int16_t ir1 = limits.ir(1, macs[0], c.lowest_ir());
-  const std::int16_t ir2 = limits.ir(2, macs[1], c.lowest_ir());
+  const Three<std::int32_t> mac = shifted(c, a);
+  const std::int16_t ir1 = limits.ir(1, mac.x, c.lowest_ir());
+  const std::int16_t ir2 = limits.ir(2, mac.y, c.lowest_ir());
   const auto z = static_cast<std::int32_t>(a[2] >> 12);
   limits.ir(3, z, -0x8000);  // FLAG looks at >> 12 whatever sf and lm say, IR3 does not
   const std::uint16_t sz3 = limits.depth(z);
@@ -143,7 +167,7 @@ void push_depth(Registers& r, std::uint16_t z) {
   const std::int64_t y = r.ofy.raw + std::int64_t{q.value} * ir2;
   limits.mac0(x);
   limits.mac0(y);
-  store(r, {macs, {ir1, ir2, static_cast<std::int16_t>(std::clamp(macs[2], c.lowest_ir(), 0x7fff))}});
+  store(r, {mac, {ir1, ir2, static_cast<std::int16_t>(std::clamp(mac.z, c.lowest_ir(), 0x7fff))}});
   push_depth(r, sz3);
   push_screen(r, {limits.screen_x(x >> 16), limits.screen_y(y >> 16)});
   return q.value;
@@ -157,14 +181,14 @@ void depth_cue(Registers& r, Limits& limits, std::uint32_t quotient) {
 
 [[gnu::always_inline]] inline void push_colour(Registers& r, Limits& limits, const Result& pushed) {
   // One store of 32 bits: four of a byte each would make whoever reads the colour back wait for all of them.
-  const auto bits = [&](std::size_t i) { return static_cast<std::uint32_t>(pushed.mac[i]); };
+  const auto bits = [](std::int32_t m) { return static_cast<std::uint32_t>(m); };
+  const auto [x, y, z] = pushed.mac;
   std::uint32_t newest = 0;
-  if (((bits(0) | bits(1) | bits(2)) & ~0xfffu) == 0) [[likely]] {
-    newest = bits(0) >> 4 | (bits(1) & 0xff0) << 4 | (bits(2) & 0xff0) << 12;
+  if (((bits(x) | bits(y) | bits(z)) & ~0xfffu) == 0) [[likely]] {
+    newest = bits(x) >> 4 | (bits(y) & 0xff0) << 4 | (bits(z) & 0xff0) << 12;
   } else {
-    newest = std::uint32_t{limits.colour(1, pushed.mac[0])} |
-             std::uint32_t{limits.colour(2, pushed.mac[1])} << 8 |
-             std::uint32_t{limits.colour(3, pushed.mac[2])} << 16;
+    newest = std::uint32_t{limits.colour(1, x)} | std::uint32_t{limits.colour(2, y)} << 8 |
+             std::uint32_t{limits.colour(3, z)} << 16;
   }
   newest |= std::uint32_t{r.rgbc.code} << 24;
   r.rgb[0] = r.rgb[1];
@@ -199,7 +223,7 @@ Sums from_bytes(Colour c) {
   if (!cannot_overflow(raw(r.fc))) [[unlikely]] {
     distances = {limits.mac(1, distances[0]), limits.mac(2, distances[1]), limits.mac(3, distances[2])};
   }
-  const Vector ir = result(limits, c, distances, -0x8000).ir;
+  const Vector ir = vector(result(limits, c, distances, -0x8000).ir);
   const auto moved = [&](std::size_t i) { return in[i] + std::int64_t{ir[i]} * r.ir[0]; };
   return result(limits, c, {moved(0), moved(1), moved(2)});
 }
@@ -354,7 +378,7 @@ template <std::size_t count = 1, class Steps>
 }
 
 [[gnu::always_inline]] inline Result lit(const Registers& r, Limits& limits, Command c, std::size_t k) {
-  return colour(r, limits, c, light(r, limits, c, k).ir);
+  return colour(r, limits, c, vector(light(r, limits, c, k).ir));
 }
 
 template <std::size_t count>
@@ -364,13 +388,13 @@ void lit_only(Registers& r, Command c) {
 template <std::size_t count>
 void lit_modulated(Registers& r, Command c) {
   coloured<count>(r, [&](Limits& limits, std::size_t k) {
-    return result(limits, c, modulated(r, lit(r, limits, c, k).ir));
+    return result(limits, c, modulated(r, vector(lit(r, limits, c, k).ir)));
   });
 }
 template <std::size_t count>
 void lit_cued(Registers& r, Command c) {
   coloured<count>(r, [&](Limits& limits, std::size_t k) {
-    return cue(r, limits, c, modulated(r, lit(r, limits, c, k).ir));
+    return cue(r, limits, c, modulated(r, vector(lit(r, limits, c, k).ir)));
   });
 }
 
@@ -385,13 +409,13 @@ void ncdt(Registers& r, Command c) { lit_cued<3>(r, c); }
 
 void cc(Registers& r, Command c) {
   coloured(r, [&](Limits& limits, std::size_t) {
-    return result(limits, c, modulated(r, colour(r, limits, c, ir_vector(r)).ir));
+    return result(limits, c, modulated(r, vector(colour(r, limits, c, ir_vector(r)).ir)));
   });
 }
 
 void cdp(Registers& r, Command c) {
   coloured(r, [&](Limits& limits, std::size_t) {
-    return cue(r, limits, c, modulated(r, colour(r, limits, c, ir_vector(r)).ir));
+    return cue(r, limits, c, modulated(r, vector(colour(r, limits, c, ir_vector(r)).ir)));
   });
 }
 
