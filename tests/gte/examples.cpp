@@ -36,9 +36,9 @@ gte::Registers loaded(const Values& values) {
 }
 
 void check(const gte::Registers& r, const Values& after) {
-  for (const auto& [name, value] : after) {
-    CAPTURE(name);
-    CHECK(gte::read(r, number(name)) == value);
+  for (const auto& expected : after) {
+    CAPTURE(expected.first);
+    CHECK(gte::read(r, number(expected.first)) == expected.second);
   }
 }
 
