@@ -118,7 +118,7 @@ std::uint32_t Pictures::load(std::string_view reference, bool repeats) {
   }
   auto texture = read(reference);
   if (!texture) {
-    warnings_.push_back(source_.name + ": texture " + quoted(reference) +
+    warnings_.push_back(source_.name + ": texture " + in_quotes(reference) +
                         " is left out: " + texture.error().text);
     return loaded_[use] = none;
   }

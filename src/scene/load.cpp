@@ -18,7 +18,8 @@ struct Format {
   Result<LoadedScene> (*parse)(std::string_view, const Source&);
 };
 
-constexpr std::array formats{Format{".obj", limits::obj_bytes, &parse_obj}};
+constexpr std::array formats{Format{".obj", limits::obj_bytes, &parse_obj},
+                             Format{".x3d", limits::x3d_bytes, &parse_x3d}};
 
 std::string lower_case(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),

@@ -15,7 +15,7 @@
 namespace scene {
 
 /// `text` fit for one line on a terminal: control characters become '?', at most 40 bytes are kept.
-inline std::string quoted(std::string_view text) {
+inline std::string in_quotes(std::string_view text) {
   std::string out = "'";
   for (const char c : text.substr(0, 40)) out += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
   return out + (text.size() > 40 ? "...'" : "'");
@@ -30,12 +30,12 @@ inline Result<float> number(std::string_view token) {
   if (fault == std::errc::result_out_of_range) {
     // Too large or too small to hold: an exponent below zero means the latter, and then it is nothing.
     if (token.find("e-") != token.npos || token.find("E-") != token.npos) return 0.0F;
-    return fail(quoted(token) + " is beyond the limit of 1e9");
+    return fail(in_quotes(token) + " is beyond the limit of 1e9");
   }
   if (fault != std::errc{} || end != digits.data() + digits.size())
-    return fail(quoted(token) + " is not a number");
-  if (!std::isfinite(value)) return fail(quoted(token) + " is not a finite number");
-  if (std::abs(value) > limits::coordinate) return fail(quoted(token) + " is beyond the limit of 1e9");
+    return fail(in_quotes(token) + " is not a number");
+  if (!std::isfinite(value)) return fail(in_quotes(token) + " is not a finite number");
+  if (std::abs(value) > limits::coordinate) return fail(in_quotes(token) + " is beyond the limit of 1e9");
   return static_cast<float>(value);
 }
 

@@ -161,7 +161,7 @@ class Reader {
   // One index as the file counts (from 1, or from the end below 0) as an index into a list of `size`.
   static Result<std::uint32_t> index(std::string_view token, std::size_t size, const char* of_what) {
     const auto value = whole(token);
-    if (!value) return fail(quoted(token) + " is no index");
+    if (!value) return fail(in_quotes(token) + " is no index");
     const std::int64_t at = *value < 0 ? static_cast<std::int64_t>(size) + *value : std::int64_t{*value} - 1;
     if (*value == 0 || at < 0 || at >= static_cast<std::int64_t>(size)) {
       return fail("index " + std::to_string(*value) + ", but there are " + std::to_string(size) + " " +
@@ -279,7 +279,7 @@ class Reader {
     }
     const auto found = library_.find(name);
     if (found == library_.end() && !any_missing_library_)
-      warn("material " + quoted(name) + " is not defined; drawn grey");
+      warn("material " + in_quotes(name) + " is not defined; drawn grey");
     if (used_.size() >= limits::materials) return fail("more than the limit of 4,096 materials");
     materials_of_names_[std::string(name)] =
         use(found == library_.end() ? ObjMaterial{.material = {.lit = true}} : found->second);
@@ -303,7 +303,7 @@ class Reader {
     });
     if (!bytes) {
       any_missing_library_ = true;
-      warn("material library " + quoted(name) + " cannot be read; its materials are drawn grey");
+      warn("material library " + in_quotes(name) + " cannot be read; its materials are drawn grey");
       return {};
     }
     parse_mtl(*bytes, pictures_, library_);
