@@ -222,14 +222,39 @@ Bounds bounds_of(const World& world) {
   return bounds;
 }
 
-Camera framing(const Bounds& bounds, double elevation) {
+Camera framing(const Bounds& bounds) {
   constexpr float sin_half_fov = 0.38268343F;  // of 45 degrees
   Camera camera;
   const float radius = std::max(bounds.radius(), 1e-6F);
-  const float distance = radius / sin_half_fov;
-  camera.position = bounds.centre() + distance * glm::vec3(0, sin_turns(elevation), cos_turns(elevation));
+  camera.position = bounds.centre() + glm::vec3(0, 0, radius / sin_half_fov);
+  camera.near_z = (radius / sin_half_fov - radius) * 0.5F;
+  return camera;
+}
+
+Camera framing_turned(const Mesh& mesh, double elevation) {
+  Bounds bounds;
+  for (const glm::vec3& p : mesh.positions) bounds.include(p);
+  const glm::vec3 centre = bounds.centre();
+  float radius = 1e-6F;  // of the upright cylinder that the turning mesh fills
+  for (const glm::vec3& p : mesh.positions)
+    radius = std::max(radius, glm::length(glm::vec2(p.x - centre.x, p.z - centre.z)));
+
+  Camera camera;
   camera.orientation = rotation_x(-elevation);
-  camera.near_z = (distance - radius) * 0.5F;
+  constexpr float margin = 1.05F;
+  float distance = 0, nearest = 0;
+  for (int step = 0; step < 64; ++step) {
+    const auto x = static_cast<float>(sin_turns(step / 64.0)) * radius;
+    const auto z = static_cast<float>(cos_turns(step / 64.0)) * radius;
+    for (const float y : {bounds.low.y - centre.y, bounds.high.y - centre.y}) {
+      const glm::vec3 seen(glm::transpose(camera.orientation) * glm::vec4(x, y, z, 0));
+      const float side = std::max(std::abs(seen.x), std::abs(seen.y)) * margin;
+      distance = std::max(distance, seen.z + side / camera.tan_half_fov);
+      nearest = std::max(nearest, seen.z);
+    }
+  }
+  camera.position = centre + glm::vec3(camera.orientation * glm::vec4(0, 0, distance, 0));
+  camera.near_z = (distance - nearest) * 0.5F;
   return camera;
 }
 

@@ -27,7 +27,7 @@ inline constexpr std::uint64_t split_work = 200'000'000;  ///< a second or so
 /// positive volume), so that its back is never in sight. Positions count as equal by value.
 std::vector<bool> faces_of_closed_surfaces(const Mesh& mesh);
 
-/// The smallest box round the positions the meshes' instances use, in world space.
+/// A box along the axes; bounds_of: round what the instances show, in world space.
 struct Bounds {
   glm::vec3 low{0.0F}, high{0.0F};
   bool empty = true;
@@ -37,7 +37,11 @@ struct Bounds {
 };
 Bounds bounds_of(const World& world);
 
-/// A camera `elevation` turns above the horizon that sees the whole sphere round `bounds` from +z.
-Camera framing(const Bounds& bounds, double elevation);
+/// A camera that sees the whole sphere round `bounds` from +z.
+Camera framing(const Bounds& bounds);
+
+/// A camera on the +z side, `elevation` turns above the horizon, no farther off than it must be to see all of
+/// `mesh` in a square picture while the mesh turns round the upright axis through the centre of its bounds.
+Camera framing_turned(const Mesh& mesh, double elevation);
 
 }  // namespace scene

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::string_view blank = " \t\r\v\f\\\n";  // a back slash before the line's end continues it
 constexpr double seconds_per_turn = 16;
+constexpr double first_turn = 0.1;         // a flat model is not seen edge on
 constexpr double camera_elevation = 0.05;  // turns
 
 struct Corner {
@@ -52,17 +53,19 @@ class Reader {
     share_corners();
     cull_closed_surfaces();
     World& w = world();
+    w.camera = framing_turned(mesh_, camera_elevation);
+    Bounds bounds;
+    for (const glm::vec3& p : mesh_.positions) bounds.include(p);
     w.meshes.push_back(std::move(mesh_));
     w.instances.push_back({0, glm::mat4(1)});
-    const Bounds bounds = bounds_of(w);
-    w.camera = framing(bounds, camera_elevation);
     const float third = 1 / std::sqrt(3.0F);
     w.lights = {{.direction = {third, -third, -third}, .colour = glm::vec3(0.7F), .at_camera = true}};
-    w.ambient = glm::vec3(0.35F);
+    w.ambient = glm::vec3(0.5F);
+    w.background = {32, 40, 56};  // neither a black nor a white model is lost on it
     out_.scene.shows = "A Wavefront OBJ model, turning";
     out_.scene.animate = [centre = bounds.centre()](World& moved, double seconds) {
       moved.instances[0].model =
-          translation(centre) * rotation_y(seconds / seconds_per_turn) * translation(-centre);
+          translation(centre) * rotation_y(first_turn + seconds / seconds_per_turn) * translation(-centre);
     };
     out_.scene.animate(w, 0);
   }

@@ -3,7 +3,8 @@
 //
 // Read: v (with a colour or without), vt, vn, f of any size, l, p, usemtl, mtllib; Kd, Ke, d, Tr, illum 0,
 // map_Kd with -s, -o, -clamp. Quads that are flat and convex stay quads. Positive and negative indices. Not
-// modelled: curves and surfaces, smoothing groups without normals, all other maps and reflection terms.
+// modelled: curves and surfaces, smoothing groups without normals, all other maps, illumination models and
+// reflection terms: every surface is lit by one lamp over the camera's shoulder, unless it has Ke and no Kd.
 //
 // d below 1 (or Tr above 0) becomes the console's average blend, whatever its value: half of the surface,
 // half of what is behind it. At d 0 nothing is drawn.

@@ -24,7 +24,7 @@ ObjMaterial convert(const tinyobj::material_t& from, Pictures& pictures) {
   const float opacity = finite(from.dissolve, 1);
   to.is_invisible = opacity <= 0;
   to.material.blend = opacity < 1 ? Blend::average : Blend::opaque;
-  to.material.lit = from.illum != 0;
+  to.material.lit = true;
   to.diffuse = colour_of(from.diffuse);
   const glm::vec3 glow = colour_of(from.emission);
   if (to.diffuse == glm::vec3(0) && glow != glm::vec3(0)) {

@@ -340,7 +340,7 @@ class Reader {
     const float side = glm::length(glm::vec2(centre)) + bounds.radius(),
                 depth = 10 - centre.z - bounds.radius();
     if (depth > w.camera.near_z && side <= depth * w.camera.tan_half_fov) return;
-    const Camera seen = framing(bounds, 0);
+    const Camera seen = framing(bounds);
     if (layout_.is_mirrored) {
       // The mirror hangs at the camera's height: raise the camera, and the picture sinks twice as far.
       w.camera = seen;
