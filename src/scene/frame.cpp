@@ -12,6 +12,7 @@
 #include "scene/lists.h"
 #include "scene/model.h"
 #include "scene/submit.h"
+#include "scene/tessellate.h"
 
 namespace scene {
 namespace {
@@ -89,8 +90,11 @@ struct FrameBuilder::State {
     for (const auto& instance : world.instances)
       if (instance.mesh == index) largest = std::max(largest, scale_of(instance.model));
     const double wanted = units * (largest > 0 ? largest : 1);
-    models.push_back(
-        make_model(world.meshes[index], {}, world.materials, pack.textures, wanted, world.depth_cue.on));
+    const Mesh& mesh = world.meshes[index];
+    const auto cut = tessellate(mesh, world.materials, pack.textures, subdivide, report);
+    models.push_back(make_model(cut ? cut->mesh : mesh,
+                                cut ? std::span(cut->sources) : std::span<const std::uint32_t>{},
+                                world.materials, pack.textures, wanted, world.depth_cue.on));
     const double scale = models.back().scale;
     if (scale < wanted * 0.999) {
       report.push_back("mesh " + std::to_string(index) + ": scaled to " + std::to_string(scale / wanted) +
