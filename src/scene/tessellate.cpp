@@ -12,7 +12,7 @@ namespace scene {
 namespace {
 
 constexpr double most_periods = 64;  // that a face is cut into, each way
-constexpr float close = 1e-5F;       // texture coordinates nearer than this are the same
+constexpr float close = 1e-4F;       // a point nearer to a line than this lies on it
 
 bool comes_first(glm::vec3 a, glm::vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
@@ -220,9 +220,10 @@ int period_of(const TexelAxis& axis, const Polygon& polygon, int which, bool& to
 std::vector<float> lines_between(float a, float b, int period) {
   std::vector<float> out;
   const auto step = static_cast<float>(period);
-  const float low = std::min(a, b) + close;
-  const float high = std::max(a, b) - close;
-  for (float line = std::ceil(low / step) * step; line < high; line += step) out.push_back(line);
+  const float low = std::min(a, b);
+  const float high = std::max(a, b);
+  for (float line = std::ceil(low / step) * step; line < high; line += step)
+    if (line > low) out.push_back(line);
   return out;
 }
 
@@ -289,10 +290,11 @@ class Repeats {
     if (!is_sound(mesh_, face, materials_.size())) return;
     const auto texture = materials_[face.material].texture;
     if (texture >= textures_.size()) return;
-    const Polygon polygon = polygon_of(face);
+    Polygon polygon = polygon_of(face);
     Periods& periods = periods_[f];
     periods.of = {period_of(textures_[texture].u, polygon, 0, too_many_),
                   period_of(textures_[texture].v, polygon, 1, too_many_)};
+    for (auto& p : polygon) snap(p, periods);
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const Point& a = polygon[k];
       const Point& b = polygon[(k + 1) % polygon.size()];
@@ -306,7 +308,8 @@ class Repeats {
     }
   }
 
-  Polygon with_edge_points(Cutter& cutter, const Polygon& polygon, const Periods& periods) const {
+  Polygon with_edge_points(Cutter& cutter, Polygon polygon, const Periods& periods) const {
+    for (auto& p : polygon) snap(p, periods);
     Polygon out;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
       const Point& a = polygon[k];
@@ -320,14 +323,21 @@ class Repeats {
     return out;
   }
 
-  // A point made for a line lies on the line, whatever the arithmetic.
+  // A point made for a line lies on the line, whatever the arithmetic: otherwise a slice would cut the edge
+  // once more, for one of its faces only.
   static void snap(Point& p, const Periods& periods) {
     for (int axis = 0; axis < 2; ++axis) {
       const auto step = static_cast<float>(periods.of[static_cast<std::size_t>(axis)]);
       if (step == 0) continue;
       const float line = std::floor(p.uv[axis] / step + 0.5F) * step;
-      if (std::abs(line - p.uv[axis]) < 1e-4F) p.uv[axis] = line;
+      if (std::abs(line - p.uv[axis]) < close) p.uv[axis] = line;
     }
+  }
+
+  // The same to the bit for both parts that the edge belongs to.
+  static Point crossing(Cutter& cutter, const Point& a, const Point& b, double at_a, double at_b) {
+    if (comes_first(cutter.position(b), cutter.position(a))) return crossing(cutter, b, a, at_b, at_a);
+    return cutter.between(a, b, at_a / (at_a - at_b));
   }
 
   static std::vector<Polygon> slice(Cutter& cutter, const std::vector<Polygon>& parts, std::size_t axis,
@@ -349,7 +359,7 @@ class Repeats {
           if (at_a <= 0) below.push_back(a);
           if (at_a >= 0) above.push_back(a);
           if (at_a * at_b < 0) {
-            Point p = cutter.between(a, b, static_cast<double>(at_a) / static_cast<double>(at_a - at_b));
+            Point p = crossing(cutter, a, b, static_cast<double>(at_a), static_cast<double>(at_b));
             p.uv[along] = line;
             below.push_back(p);
             above.push_back(p);

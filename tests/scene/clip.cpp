@@ -34,11 +34,11 @@ ClipPolygon polygon(std::initializer_list<ClipVertex> vertices) {
 }
 
 bool inside(const Projection& p, glm::dvec3 v) {
-  // Rounding to whole units moves a point by less than a pixel on the screen.
+  // Rounding to whole units moves a point by less than a pixel on the screen for each plane that made it.
   const double x = v.x * p.h / v.z;
   const double y = v.y * p.h / v.z;
-  return v.z >= p.near_z && v.z <= 65535 && std::abs(x) <= scene::guard_band.half_width + 1 &&
-         std::abs(y) <= scene::guard_band.half_height + 1 && std::abs(v.x) <= 32767 && std::abs(v.y) <= 32767;
+  return v.z >= p.near_z && v.z <= 65535 && std::abs(x) <= scene::guard_band.half_width + 3 &&
+         std::abs(y) <= scene::guard_band.half_height + 3 && std::abs(v.x) <= 32767 && std::abs(v.y) <= 32767;
 }
 
 }  // namespace

@@ -37,11 +37,11 @@ scene::Mesh shell(std::mt19937& random, int stacks, int slices, float roughness)
     for (int k = 0; k < slices; ++k) {
       scene::Face face;  // counter-clockwise seen from inside
       if (s == 0) {
-        face.vertex = {at(0, 0), at(1, k), at(1, k + 1), scene::none};
+        face.vertex = {at(0, 0), at(1, k + 1), at(1, k), scene::none};
       } else if (s == stacks - 1) {
-        face.vertex = {at(s, k), at(s + 1, 0), at(s, k + 1), scene::none};
+        face.vertex = {at(s, k), at(s, k + 1), at(s + 1, 0), scene::none};
       } else {
-        face.vertex = {at(s, k), at(s + 1, k), at(s + 1, k + 1), at(s, k + 1)};
+        face.vertex = {at(s, k), at(s, k + 1), at(s + 1, k + 1), at(s + 1, k)};
       }
       face.colour.fill({8, 8, 8});
       mesh.faces.push_back(face);
@@ -91,11 +91,11 @@ void check_shells(const scene::Knobs& knobs, int rounds, unsigned seed) {
   std::mt19937 random(seed);
   std::uint32_t clipped = 0;
   for (int i = 0; i < rounds; ++i) {
-    const int stacks = 2 + static_cast<int>(random() % 5);
-    const int slices = 3 + static_cast<int>(random() % 6);
-    auto s = shell_scene(shell(random, stacks, slices, 0.3F), random);
-    // From a few hundred units, where faces pass close by the near plane, to beyond 16 bits.
-    constexpr float units[] = {700, 2500, 9000, 24000};
+    const int stacks = 3 + static_cast<int>(random() % 4);
+    const int slices = 4 + static_cast<int>(random() % 5);
+    auto s = shell_scene(shell(random, stacks, slices, 0.2F), random);
+    // From where faces pass just in front of the near plane (290 units at 480 lines) to nearly 16 bits.
+    constexpr float units[] = {1200, 2500, 9000, 24000};
     s.world.units_per_world = units[i % 4];
     CAPTURE(i);
     const Coverage c = draw(s, knobs);
