@@ -250,9 +250,7 @@ void rtpt(Registers& r, Command c) {
 
 void nclip(Registers& r, Command) {
   Limits limits;
-  const auto [a, b, c] = r.sxy;
-  r.mac[0] = limits.mac0(std::int64_t{a.x} * (b.y - c.y) + std::int64_t{b.x} * (c.y - a.y) +
-                         std::int64_t{c.x} * (a.y - b.y));
+  r.mac[0] = limits.mac0(signed_area(r.sxy[0], r.sxy[1], r.sxy[2]));
   r.flag = limits.finish();
 }
 
