@@ -77,7 +77,7 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   order_ = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
   full_ = false;
   primitives_ = words_ = 0;
-  sorted_.clear();
+  keyed_.clear();
   if (sorts_) {
     table_.reset();
   } else {
@@ -112,26 +112,23 @@ void ListBuilder::operator()(const Primitive& p) {
   ++primitives_;
   words_ += static_cast<std::uint32_t>(note_words + n);
   if (sorts_) {
-    sorted_.push_back({bucket, note.value_or(*node), *node});
+    keyed_.push_back({bucket, note.value_or(*node), *node});
   } else {
     table_->insert(bucket, note.value_or(*node), *node);
   }
 }
 
 void ListBuilder::end() {
-  std::uint32_t from = environment_address;
+  constexpr std::uint32_t from = environment_address;
   if (!sorts_) {
     ot::link(*ram_, from, table_->head());
     return;
   }
-  if (order_ == ot::Order::lifo) std::reverse(sorted_.begin(), sorted_.end());
-  std::stable_sort(sorted_.begin(), sorted_.end(),
-                   [](const Sorted& a, const Sorted& b) { return a.key > b.key; });
-  for (const auto& s : sorted_) {
-    ot::link(*ram_, from, s.first);
-    from = s.last;
-  }
-  ot::link(*ram_, from, ot::tag::end);
+  // SortedList draws the last inserted of equal keys first.
+  if (order_ == ot::Order::fifo) std::reverse(keyed_.begin(), keyed_.end());
+  sorted_.clear();
+  for (const auto& k : keyed_) sorted_.insert(k.key, k.first_node, k.last_node);
+  ot::link(*ram_, from, sorted_.link(ram_->words()));
 }
 
 std::uint32_t ListBuilder::head() const { return environment_address; }

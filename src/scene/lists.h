@@ -15,6 +15,7 @@
 #include "ot/main_ram.h"
 #include "ot/ordering_table.h"
 #include "ot/packet.h"
+#include "ot/sort.h"
 #include "scene/frame.h"
 #include "scene/knobs.h"
 #include "scene/submit.h"
@@ -86,13 +87,11 @@ class ListBuilder {
   [[nodiscard]] static std::uint32_t room(const ot::MainRam& ram, std::uint32_t table_length);
 
  private:
-  struct Sorted {
-    std::uint32_t key, first, last;
-  };
   ot::MainRam* ram_ = nullptr;
   std::optional<ot::OrderingTable> table_;
   std::optional<ot::PacketArena> arena_;
-  std::vector<Sorted> sorted_;
+  std::vector<ot::Keyed> keyed_;
+  ot::SortedList sorted_;
   BucketRule rule_;
   PacketStyle style_;
   BucketRange range_;
