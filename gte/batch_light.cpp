@@ -47,15 +47,12 @@ struct Lost {
             colours = hn::Or(hn::Or(colour[0], colour[1]), colour[2]);
     const V zero = hn::Zero(d);
     if (hn::AllTrue(d, hn::Eq(hn::Or(irs, colours), zero))) return zero;
-    const auto unless_zero = [&](V lost, std::uint32_t bit) {
-      return hn::AndNot(hn::VecFromMask(d, hn::Eq(lost, zero)), all(flag::with_error(bit)));
-    };
     V bits = zero;
     for (std::size_t i = 0; i < 3; ++i) {
-      bits = hn::Or(bits, unless_zero(ir[i], flag::ir1_saturated >> i));
-      bits = hn::Or(bits, unless_zero(colour[i], flag::red_saturated >> i));
+      bits = hn::Or(bits, where(hn::Ne(ir[i], zero), flag::ir1_saturated >> i));
+      bits = hn::Or(bits, where(hn::Ne(colour[i], zero), flag::red_saturated >> i));
     }
-    return bits;
+    return with_error(bits);
   }
 };
 
