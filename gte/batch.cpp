@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gte/batch_doors.h"
+#include "gte/limits.h"
 
 namespace gte {
 namespace {
@@ -58,27 +59,30 @@ Dispatch& dispatch() {
   return chosen;
 }
 
+/// NCLIP, AVSZ3 and AVSZ4 of faces whose corners are anywhere: the time goes into finding them, so no SIMD.
+template <std::size_t corners>
 void measure(S3_12 scale, std::span<const ScreenXy> sxy, std::span<const std::uint16_t> sz,
-             std::span<const std::uint32_t> indices, std::size_t corners, const FaceOut& out) {
+             std::span<const std::uint32_t> indices, const FaceOut& out) {
   assert(sxy.size() == sz.size() && indices.size() % corners == 0);
-  Registers r;
-  r.zsf3 = r.zsf4 = scale;
+  const bool wants_area = out.mac0 != nullptr || out.nclip_flag != nullptr;
+  const bool wants_average = out.otz != nullptr || out.avsz_flag != nullptr;
   for (std::size_t face = 0; face < indices.size() / corners; ++face) {
     const std::uint32_t* corner = indices.data() + face * corners;
-    for (std::size_t k = 0; k < corners; ++k) {
-      assert(corner[k] < sxy.size());
-      if (k < 3) r.sxy[k] = sxy[corner[k]];
-      r.sz[4 - corners + k] = sz[corner[k]];
+    for (std::size_t k = 0; k < corners; ++k) assert(corner[k] < sxy.size());
+    if (wants_area) {
+      Limits limits;
+      const std::int32_t mac0 = limits.mac0(signed_area(sxy[corner[0]], sxy[corner[1]], sxy[corner[2]]));
+      put(out.mac0, face, mac0);
+      put(out.nclip_flag, face, limits.finish());
     }
-    if (out.mac0 != nullptr || out.nclip_flag != nullptr) {
-      nclip(r);
-      put(out.mac0, face, r.mac[0]);
-      put(out.nclip_flag, face, r.flag);
+    if (wants_average) {
+      Limits limits;
+      std::int64_t depth = 0;
+      for (std::size_t k = 0; k < corners; ++k) depth += sz[corner[k]];
+      limits.mac0(scale.raw * depth);
+      put(out.otz, face, limits.depth(scale.raw * depth >> 12));
+      put(out.avsz_flag, face, limits.finish());
     }
-    if (out.otz == nullptr && out.avsz_flag == nullptr) continue;
-    corners == 3 ? avsz3(r) : avsz4(r);
-    put(out.otz, face, r.otz);
-    put(out.avsz_flag, face, r.flag);
   }
 }
 
@@ -97,12 +101,12 @@ void project_triangles(const Registers& setup, std::span<const Vertex> in, const
 void measure_triangles(const Registers& setup, std::span<const ScreenXy> sxy,
                        std::span<const std::uint16_t> sz, std::span<const std::uint32_t> indices,
                        const FaceOut& out) {
-  measure(setup.zsf3, sxy, sz, indices, 3, out);
+  measure<3>(setup.zsf3, sxy, sz, indices, out);
 }
 
 void measure_quads(const Registers& setup, std::span<const ScreenXy> sxy, std::span<const std::uint16_t> sz,
                    std::span<const std::uint32_t> indices, const FaceOut& out) {
-  measure(setup.zsf4, sxy, sz, indices, 4, out);
+  measure<4>(setup.zsf4, sxy, sz, indices, out);
 }
 
 void light(const Registers& setup, Light kind, std::span<const Vertex> normals, std::span<const Colour> rgbc,

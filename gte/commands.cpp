@@ -97,9 +97,10 @@ struct Exception {
   std::uint32_t bits = 0;
   Three<std::int16_t> ir{};
 };
-[[gnu::noinline, gnu::cold]] Exception limited_rarely(Three<std::int32_t> mac, std::int32_t lowest) {
+[[gnu::noinline, gnu::cold]] Exception limited_rarely(std::int32_t mac1, std::int32_t mac2, std::int32_t mac3,
+                                                      std::int32_t lowest) {
   Limits limits;
-  const Three<std::int16_t> ir = limited(limits, mac, lowest).ir;
+  const Three<std::int16_t> ir = limited(limits, {mac1, mac2, mac3}, lowest).ir;
   return {limits.bits, ir};
 }
 
@@ -112,17 +113,20 @@ struct Exception {
 /// nothing is to be limited: MAC - lowest has no bit above those of 7FFFh - lowest, which is 7FFFh or FFFFh.
 [[gnu::always_inline]] inline Result result(Limits& limits, Command c, const Sums& sums,
                                             std::int32_t lowest) {
-  const Three<std::int32_t> mac = shifted(c, sums);
+  const auto [x, y, z] = shifted(c, sums);
   const auto above = [&](std::int32_t m) {
     return static_cast<std::uint32_t>(m) - static_cast<std::uint32_t>(lowest);
   };
-  if (((above(mac.x) | above(mac.y) | above(mac.z)) & ~above(0x7fff)) != 0) [[unlikely]] {
-    const Exception rare = limited_rarely(mac, lowest);
+  const auto kept = [](std::int32_t m) { return static_cast<std::int16_t>(m); };
+  Result out{{x, y, z}, {kept(x), kept(y), kept(z)}};
+  if (((above(x) | above(y) | above(z)) & ~above(0x7fff)) != 0) [[unlikely]] {
+    const Exception rare = limited_rarely(x, y, z, lowest);
     limits.bits |= rare.bits;
-    return {mac, rare.ir};
+    out.ir.x = rare.ir.x;
+    out.ir.y = rare.ir.y;
+    out.ir.z = rare.ir.z;
   }
-  const auto ir = [](std::int32_t m) { return static_cast<std::int16_t>(m); };
-  return {mac, {ir(mac.x), ir(mac.y), ir(mac.z)}};
+  return out;
 }
 [[gnu::always_inline]] inline Result result(Limits& limits, Command c, const Sums& sums) {
   return result(limits, c, sums, c.lowest_ir());
@@ -246,9 +250,7 @@ void rtpt(Registers& r, Command c) {
 
 void nclip(Registers& r, Command) {
   Limits limits;
-  const auto [a, b, c] = r.sxy;
-  r.mac[0] = limits.mac0(std::int64_t{a.x} * (b.y - c.y) + std::int64_t{b.x} * (c.y - a.y) +
-                         std::int64_t{c.x} * (a.y - b.y));
+  r.mac[0] = limits.mac0(signed_area(r.sxy[0], r.sxy[1], r.sxy[2]));
   r.flag = limits.finish();
 }
 

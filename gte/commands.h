@@ -83,6 +83,11 @@ void rtpt(Registers& r, Command c = sdk::rtpt);
 ///     MAC0 = SX0*(SY1-SY2) + SX1*(SY2-SY0) + SX2*(SY0-SY1)
 void nclip(Registers& r, Command c = sdk::nclip);
 
+/// The exact sum of NCLIP, which MAC0 keeps the low 32 bits of.
+constexpr std::int64_t signed_area(ScreenXy a, ScreenXy b, ScreenXy c) {
+  return std::int64_t{a.x} * (b.y - c.y) + std::int64_t{b.x} * (c.y - a.y) + std::int64_t{c.x} * (a.y - b.y);
+}
+
 /// AVSZ3: average of three screen depths, the bucket number of a triangle. sf and lm mean nothing.
 ///     MAC0 = ZSF3 * (SZ1 + SZ2 + SZ3)      OTZ = exact sum >> 12, limited to 0..FFFFh
 /// Reads   SZ1..SZ3 (u16, eye units), ZSF3 (s3.12).   Writes  OTZ, MAC0, FLAG.

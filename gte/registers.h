@@ -141,6 +141,11 @@ constexpr void write_matrix(Matrix& m, unsigned pair, std::uint32_t value) {
   if (pair != 4) at(pair * 2 + 1) = high(value);
 }
 
+/// A channel of IRGB as IR keeps it.
+constexpr std::int16_t five_bits(std::uint32_t value) {
+  return static_cast<std::int16_t>((value & 0x1fu) << 7);
+}
+
 /// IR1..3 as a 15-bit colour: IRi >> 7 limited to 0..1Fh, without touching FLAG.
 constexpr std::uint32_t orgb(const Registers& r) {
   std::uint32_t out = 0;
@@ -155,103 +160,38 @@ constexpr std::uint32_t orgb(const Registers& r) {
 constexpr std::uint32_t read(const Registers& r, unsigned number) {
   using namespace detail;
   assert(number < 64);
-  const auto s32 = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
-  // clang-format off: one row per register
+  const auto word32 = [](std::int32_t v) { return static_cast<std::uint32_t>(v); };
+  // clang-format off
   switch (number) {
-    case 0:
-    case 2:
-    case 4:
-      return join(r.v[number / 2].x, r.v[number / 2].y);
-    case 1:
-    case 3:
-    case 5:
-      return extend(r.v[number / 2].z);
-    case 6:
-      return word(r.rgbc);
-    case 7:
-      return r.otz;
-    case 8:
-    case 9:
-    case 10:
-    case 11:
-      return extend(r.ir[number - 8]);
-    case 12:
-    case 13:
-    case 14:
-      return join(r.sxy[number - 12].x, r.sxy[number - 12].y);
-    case 15:
-      return join(r.sxy[2].x, r.sxy[2].y);
-    case 16:
-    case 17:
-    case 18:
-    case 19:
-      return r.sz[number - 16];
-    case 20:
-    case 21:
-    case 22:
-      return word(r.rgb[number - 20]);
-    case 23:
-      return r.res1;
-    case 24:
-    case 25:
-    case 26:
-    case 27:
-      return s32(r.mac[number - 24]);
-    case 28:
-    case 29:
-      return orgb(r);
-    case 30:
-      return r.lzcs;
-    case 31:
-      return leading_equal_bits(r.lzcs);
-    case 32:
-    case 33:
-    case 34:
-    case 35:
-    case 36:
-      return read_matrix(r.rt, number - 32);
-    case 37:
-    case 38:
-    case 39:
-      return s32(r.tr[number - 37]);
-    case 40:
-    case 41:
-    case 42:
-    case 43:
-    case 44:
-      return read_matrix(r.llm, number - 40);
-    case 45:
-    case 46:
-    case 47:
-      return s32(r.bk[number - 45].raw);
-    case 48:
-    case 49:
-    case 50:
-    case 51:
-    case 52:
-      return read_matrix(r.lcm, number - 48);
-    case 53:
-    case 54:
-    case 55:
-      return s32(r.fc[number - 53].raw);
-    case 56:
-      return s32(r.ofx.raw);
-    case 57:
-      return s32(r.ofy.raw);
-    case 58:
-      return extend(static_cast<std::int16_t>(r.h));  // a hardware bug: arithmetic uses H as unsigned
-    case 59:
-      return extend(r.dqa.raw);
-    case 60:
-      return s32(r.dqb.raw);
-    case 61:
-      return extend(r.zsf3.raw);
-    case 62:
-      return extend(r.zsf4.raw);
-    case 63:
-      return r.flag;
-    default:
-      return 0;
+    case 0: case 2: case 4: return join(r.v[number / 2].x, r.v[number / 2].y);
+    case 1: case 3: case 5: return extend(r.v[number / 2].z);
+    case 6: return word(r.rgbc);
+    case 7: return r.otz;
+    case 8: case 9: case 10: case 11: return extend(r.ir[number - 8]);
+    case 12: case 13: case 14: return join(r.sxy[number - 12].x, r.sxy[number - 12].y);
+    case 15: return join(r.sxy[2].x, r.sxy[2].y);
+    case 16: case 17: case 18: case 19: return r.sz[number - 16];
+    case 20: case 21: case 22: return word(r.rgb[number - 20]);
+    case 23: return r.res1;
+    case 24: case 25: case 26: case 27: return word32(r.mac[number - 24]);
+    case 28: case 29: return orgb(r);
+    case 30: return r.lzcs;
+    case 31: return leading_equal_bits(r.lzcs);
+    case 32: case 33: case 34: case 35: case 36: return read_matrix(r.rt, number - 32);
+    case 37: case 38: case 39: return word32(r.tr[number - 37]);
+    case 40: case 41: case 42: case 43: case 44: return read_matrix(r.llm, number - 40);
+    case 45: case 46: case 47: return word32(r.bk[number - 45].raw);
+    case 48: case 49: case 50: case 51: case 52: return read_matrix(r.lcm, number - 48);
+    case 53: case 54: case 55: return word32(r.fc[number - 53].raw);
+    case 56: return word32(r.ofx.raw);
+    case 57: return word32(r.ofy.raw);
+    case 58: return extend(static_cast<std::int16_t>(r.h));  // a hardware bug: arithmetic uses H as unsigned
+    case 59: return extend(r.dqa.raw);
+    case 60: return word32(r.dqb.raw);
+    case 61: return extend(r.zsf3.raw);
+    case 62: return extend(r.zsf4.raw);
+    case 63: return r.flag;
+    default: return 0;
   }
   // clang-format on
 }
@@ -260,132 +200,38 @@ constexpr void write(Registers& r, unsigned number, std::uint32_t value) {
   using namespace detail;
   assert(number < 64);
   const auto s32 = static_cast<std::int32_t>(value);
-  const auto ir_from = [](std::uint32_t bits) { return static_cast<std::int16_t>((bits & 0x1fu) << 7); };
-  // clang-format off: one row per register
+  const auto u16 = static_cast<std::uint16_t>(value);
+  const ScreenXy xy{low(value), high(value)};
+  // clang-format off
   switch (number) {
-    case 0:
-    case 2:
-    case 4:
-      r.v[number / 2].x = low(value);
-      r.v[number / 2].y = high(value);
-      break;
-    case 1:
-    case 3:
-    case 5:
-      r.v[number / 2].z = low(value);
-      break;
-    case 6:
-      r.rgbc = colour(value);
-      break;
-    case 7:
-      r.otz = static_cast<std::uint16_t>(value);
-      break;
-    case 8:
-    case 9:
-    case 10:
-    case 11:
-      r.ir[number - 8] = low(value);
-      break;
-    case 12:
-    case 13:
-    case 14:
-      r.sxy[number - 12] = {low(value), high(value)};
-      break;
-    case 15:
-      r.sxy[0] = r.sxy[1];
-      r.sxy[1] = r.sxy[2];
-      r.sxy[2] = {low(value), high(value)};
-      break;
-    case 16:
-    case 17:
-    case 18:
-    case 19:
-      r.sz[number - 16] = static_cast<std::uint16_t>(value);
-      break;
-    case 20:
-    case 21:
-    case 22:
-      r.rgb[number - 20] = colour(value);
-      break;
-    case 23:
-      r.res1 = value;
-      break;
-    case 24:
-    case 25:
-    case 26:
-    case 27:
-      r.mac[number - 24] = s32;
-      break;
-    case 28:
-      r.ir[1] = ir_from(value);
-      r.ir[2] = ir_from(value >> 5);
-      r.ir[3] = ir_from(value >> 10);
-      break;
-    case 30:
-      r.lzcs = value;
-      break;
-    case 32:
-    case 33:
-    case 34:
-    case 35:
-    case 36:
-      write_matrix(r.rt, number - 32, value);
-      break;
-    case 37:
-    case 38:
-    case 39:
-      r.tr[number - 37] = s32;
-      break;
-    case 40:
-    case 41:
-    case 42:
-    case 43:
-    case 44:
-      write_matrix(r.llm, number - 40, value);
-      break;
-    case 45:
-    case 46:
-    case 47:
-      r.bk[number - 45].raw = s32;
-      break;
-    case 48:
-    case 49:
-    case 50:
-    case 51:
-    case 52:
-      write_matrix(r.lcm, number - 48, value);
-      break;
-    case 53:
-    case 54:
-    case 55:
-      r.fc[number - 53].raw = s32;
-      break;
-    case 56:
-      r.ofx.raw = s32;
-      break;
-    case 57:
-      r.ofy.raw = s32;
-      break;
-    case 58:
-      r.h = static_cast<std::uint16_t>(value);
-      break;
-    case 59:
-      r.dqa.raw = low(value);
-      break;
-    case 60:
-      r.dqb.raw = s32;
-      break;
-    case 61:
-      r.zsf3.raw = low(value);
-      break;
-    case 62:
-      r.zsf4.raw = low(value);
-      break;
-    case 63:
-      r.flag = flag::with_error(value & flag::writable);
-      break;
-    default:
-      break;  // 29 ORGB and 31 LZCR cannot be written
+    case 0: case 2: case 4: r.v[number / 2].x = xy.x; r.v[number / 2].y = xy.y; break;
+    case 1: case 3: case 5: r.v[number / 2].z = low(value); break;
+    case 6: r.rgbc = colour(value); break;
+    case 7: r.otz = u16; break;
+    case 8: case 9: case 10: case 11: r.ir[number - 8] = low(value); break;
+    case 12: case 13: case 14: r.sxy[number - 12] = xy; break;
+    case 15: r.sxy = {r.sxy[1], r.sxy[2], xy}; break;
+    case 16: case 17: case 18: case 19: r.sz[number - 16] = u16; break;
+    case 20: case 21: case 22: r.rgb[number - 20] = colour(value); break;
+    case 23: r.res1 = value; break;
+    case 24: case 25: case 26: case 27: r.mac[number - 24] = s32; break;
+    case 28: r.ir = {r.ir[0], five_bits(value), five_bits(value >> 5), five_bits(value >> 10)}; break;
+    case 30: r.lzcs = value; break;
+    case 32: case 33: case 34: case 35: case 36: write_matrix(r.rt, number - 32, value); break;
+    case 37: case 38: case 39: r.tr[number - 37] = s32; break;
+    case 40: case 41: case 42: case 43: case 44: write_matrix(r.llm, number - 40, value); break;
+    case 45: case 46: case 47: r.bk[number - 45].raw = s32; break;
+    case 48: case 49: case 50: case 51: case 52: write_matrix(r.lcm, number - 48, value); break;
+    case 53: case 54: case 55: r.fc[number - 53].raw = s32; break;
+    case 56: r.ofx.raw = s32; break;
+    case 57: r.ofy.raw = s32; break;
+    case 58: r.h = u16; break;
+    case 59: r.dqa.raw = low(value); break;
+    case 60: r.dqb.raw = s32; break;
+    case 61: r.zsf3.raw = low(value); break;
+    case 62: r.zsf4.raw = low(value); break;
+    case 63: r.flag = flag::with_error(value & flag::writable); break;
+    default: break;  // 29 ORGB and 31 LZCR cannot be written
   }
   // clang-format on
 }

@@ -18,6 +18,8 @@ void project(const gte::Registers& r, std::span<const gte::Vertex> in, gte::Scre
   const hn::RebindToSigned<decltype(df)> d;
   const hn::Repartition<std::int16_t, decltype(df)> d16;
   const hn::Rebind<std::uint16_t, decltype(df)> du16;
+  const hn::Repartition<std::uint8_t, decltype(df)> d8;
+  alignas(16) static constexpr std::uint8_t xyxy[16] = {0, 1, 8, 9, 2, 3, 10, 11, 4, 5, 12, 13, 6, 7, 14, 15};
   using V = hn::Vec<decltype(df)>;
   V m[3][3], t[3];
   for (std::size_t i = 0; i < 3; ++i) {
@@ -42,7 +44,9 @@ void project(const gte::Registers& r, std::span<const gte::Vertex> in, gte::Scre
     const V scale = hn::Div(h, eye[2]);
     const auto sx = hn::ConvertTo(d, hn::MulAdd(eye[0], scale, ofx));
     const auto sy = hn::ConvertTo(d, hn::MulAdd(eye[1], scale, ofy));
-    const auto packed = hn::Or(hn::And(sx, hn::Set(d, 0xffff)), hn::ShiftLeft<16>(sy));
+    // Saturated to 16 bits, then x and y side by side.
+    const auto xxyy = hn::ReorderDemote2To(d16, sx, sy);
+    const auto packed = hn::TableLookupBytes(hn::BitCast(d8, xxyy), hn::LoadDup128(d8, xyxy));
     hn::StoreU(hn::BitCast(d16, packed), d16, reinterpret_cast<std::int16_t*>(sxy + at));
     hn::StoreU(hn::DemoteTo(du16, hn::ConvertTo(d, eye[2])), du16, sz + at);
   }
