@@ -24,8 +24,10 @@ struct Command {
   const char* examples;
 };
 
+Action add_gte_check(CLI::App& sub);
 Action add_list(CLI::App& sub);
 Action add_render(CLI::App& sub);
+Action add_replay(CLI::App& sub);
 Action add_run(CLI::App& sub);
 
 /// In the order in which `otter --help` lists them.
@@ -42,6 +44,13 @@ inline constexpr std::array commands{
             "  otter render cyclic -o cyclic.png --visibility zbuffer --frame 120 --size 640x480\n"
             "  otter render model.obj -o model.png --buckets 4096 --key farthest\n"
             "  otter render --all -d pictures\n"},
+    Command{"replay", "feed a GPU dump to the GPU", add_replay,
+            "  otter replay frame.psxgpu --vram vram.png\n"
+            "  otter replay frame.psxgpu.zst --list --until 20\n"
+            "  otter replay scene.psxgpu --visibility zbuffer --depth 16 -o frame.png\n"},
+    Command{"gte-check", "run register vectors through the GTE", add_gte_check,
+            "  otter gte-check vectors.csv\n"
+            "  otter gte-check vectors.csv --all\n"},
 };
 
 }  // namespace app

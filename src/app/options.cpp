@@ -14,8 +14,9 @@ void set_or_throw(scene::Knobs& knobs, const std::string& name, const std::strin
 
 }  // namespace
 
-void add_knobs(CLI::App& sub, scene::Knobs& knobs) {
+void add_knobs(CLI::App& sub, scene::Knobs& knobs, std::initializer_list<std::string_view> names) {
   for (const auto& knob : scene::knob_table()) {
+    if (names.size() != 0 && std::find(names.begin(), names.end(), knob.name) == names.end()) continue;
     const std::string name(knob.name);
     CLI::Option* option = nullptr;
     if (knob.values == "off|on") {

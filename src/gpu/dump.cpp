@@ -45,9 +45,6 @@ void put_little_endian(std::vector<std::byte>& out, std::uint32_t word) {
   for (int n = 0; n < 4; ++n) out.push_back(static_cast<std::byte>(word >> 8 * n & 0xff));
 }
 
-/// GP1(00h) and GP1(01h) abort a command. Codes 40h-FFh mirror 00h-3Fh.   [psx-spx, GP1]
-bool aborts_command(std::uint32_t gp1_word) { return (gp1_word >> 24 & 0x3e) == 0; }
-
 /// Follows the commands of a whole dump to see that they are complete.
 class Checker {
  public:

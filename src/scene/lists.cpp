@@ -34,11 +34,11 @@ std::size_t encode_annotation(const Primitive& p, const PacketStyle& style, std:
   return ot::encode(depth_of(p, style.fraction_mask, style.fractions), out);
 }
 
-void BucketSizes::add(const Primitive& p, std::uint32_t bucket) {
+void BucketSizes::operator()(const Primitive& p) {
   std::array<std::uint32_t, 16> words{};
   std::uint32_t bytes = node_bytes(encode(p, style_, words));
   if (const auto n = encode_annotation(p, style_, words); n > 0) bytes += node_bytes(n);
-  bytes_[bucket] += bytes;
+  bytes_[rule_.of(p)] += bytes;
 }
 
 Result<std::vector<BucketRange>> BucketSizes::ranges(std::uint32_t available) const {
@@ -73,11 +73,11 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   rule_ = rule;
   style_ = style;
   range_ = range;
-  sorts_ = knobs.visibility == Visibility::sorted || knobs.visibility == Visibility::bsp;
+  sorts_ = knobs.visibility == Visibility::sorted;
   order_ = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
   full_ = false;
   primitives_ = words_ = 0;
-  sorted_.clear();
+  keyed_.clear();
   if (sorts_) {
     table_.reset();
   } else {
@@ -92,7 +92,8 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   first.push(environment);
 }
 
-void ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
+void ListBuilder::operator()(const Primitive& p) {
+  const std::uint32_t bucket = rule_.of(p);
   if (bucket < range_.first || bucket > range_.last || full_) return;
   std::array<std::uint32_t, 16> words;
   std::optional<std::uint32_t> note;
@@ -111,26 +112,23 @@ void ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
   ++primitives_;
   words_ += static_cast<std::uint32_t>(note_words + n);
   if (sorts_) {
-    sorted_.push_back({bucket, note.value_or(*node), *node});
+    keyed_.push_back({bucket, note.value_or(*node), *node});
   } else {
     table_->insert(bucket, note.value_or(*node), *node);
   }
 }
 
 void ListBuilder::end() {
-  std::uint32_t from = environment_address;
+  constexpr std::uint32_t from = environment_address;
   if (!sorts_) {
     ot::link(*ram_, from, table_->head());
     return;
   }
-  if (order_ == ot::Order::lifo) std::reverse(sorted_.begin(), sorted_.end());
-  std::stable_sort(sorted_.begin(), sorted_.end(),
-                   [](const Sorted& a, const Sorted& b) { return a.key > b.key; });
-  for (const auto& s : sorted_) {
-    ot::link(*ram_, from, s.first);
-    from = s.last;
-  }
-  ot::link(*ram_, from, ot::tag::end);
+  // SortedList draws the last inserted of equal keys first.
+  if (order_ == ot::Order::fifo) std::reverse(keyed_.begin(), keyed_.end());
+  sorted_.clear();
+  for (const auto& k : keyed_) sorted_.insert(k.key, k.first_node, k.last_node);
+  ot::link(*ram_, from, sorted_.link(ram_->words()));
 }
 
 std::uint32_t ListBuilder::head() const { return environment_address; }

@@ -15,6 +15,7 @@
 #include "ot/main_ram.h"
 #include "ot/ordering_table.h"
 #include "ot/packet.h"
+#include "ot/sort.h"
 #include "scene/frame.h"
 #include "scene/knobs.h"
 #include "scene/submit.h"
@@ -54,8 +55,7 @@ class BucketSizes {
  public:
   BucketSizes(const BucketRule& rule, const PacketStyle& style)
       : rule_(rule), style_(style), bytes_(rule.length) {}
-  void operator()(const Primitive& p) { add(p, rule_.of(p)); }
-  void add(const Primitive& p, std::uint32_t bucket);
+  void operator()(const Primitive& p);
   /// Ranges far to near, each at most `available` bytes. Error: the number of a bucket that is larger than
   /// that.
   [[nodiscard]] Result<std::vector<BucketRange>> ranges(std::uint32_t available) const;
@@ -72,18 +72,9 @@ class ListBuilder {
   /// Clears the table and writes the environment node.
   void begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule, const PacketStyle& style,
              const BucketRange& range, std::span<const std::uint32_t> environment);
-  void operator()(const Primitive& p) { add(p, rule_.of(p)); }
-  /// The same into a bucket of the caller's choice.
-  void add(const Primitive& p, std::uint32_t bucket);
+  void operator()(const Primitive& p);
   /// Links everything; afterwards the list can be walked from head().
   void end();
-
-  /// Visibility sorted and bsp, after end(): a primitive's bucket and the first tag of its nodes, in list
-  /// order.
-  struct Sorted {
-    std::uint32_t key, first, last;
-  };
-  [[nodiscard]] std::span<const Sorted> sorted() const { return sorted_; }
 
   [[nodiscard]] bool is_full() const { return full_; }
   [[nodiscard]] std::uint32_t head() const;
@@ -99,7 +90,8 @@ class ListBuilder {
   ot::MainRam* ram_ = nullptr;
   std::optional<ot::OrderingTable> table_;
   std::optional<ot::PacketArena> arena_;
-  std::vector<Sorted> sorted_;
+  std::vector<ot::Keyed> keyed_;
+  ot::SortedList sorted_;
   BucketRule rule_;
   PacketStyle style_;
   BucketRange range_;

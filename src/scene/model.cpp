@@ -18,6 +18,7 @@ enum class Shading : std::uint8_t { lit, cued, constant };
 // One corner of a face or end of a line. Corners that shade alike share a colour.
 struct CornerColour {
   Shading shading = Shading::constant;
+  std::array<std::int32_t, 3> self_light{};
   std::uint32_t vertex = none;  // if its depth or its own normal matters
   gte::Vertex normal;
   Rgb8 colour;
@@ -25,7 +26,8 @@ struct CornerColour {
   std::uint32_t* number = nullptr;  // where the corner keeps its colour's index
 
   [[nodiscard]] auto key() const {
-    return std::tuple(shading, vertex, normal.x, normal.y, normal.z, colour.r, colour.g, colour.b);
+    return std::tuple(shading, self_light, vertex, normal.x, normal.y, normal.z, colour.r, colour.g,
+                      colour.b);
   }
 };
 
@@ -123,6 +125,10 @@ class Maker {
       corner.shading = Shading::lit;
       corner.normal = fixed_normal(*normal);
       corner.exact_normal = *normal;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const auto light = std::clamp(static_cast<double>(m.self_light[static_cast<int>(c)]), 0.0, 8.0);
+        corner.self_light[c] = round_saturated<std::int32_t>(light * 4096);
+      }
     } else if (uses_colour && is_cued_) {
       corner.shading = Shading::cued;
     }
@@ -138,6 +144,10 @@ class Maker {
     if (corner.shading == Shading::cued) return;
     out.normal.push_back(corner.normal);
     out.exact_normal.push_back(corner.exact_normal);
+    if (out.lit_runs.empty() || out.lit_runs.back().self_light != corner.self_light) {
+      out.lit_runs.push_back({0, corner.self_light});
+    }
+    out.lit_runs.back().end = out.given.size();
     out.lit = out.given.size();
   }
 

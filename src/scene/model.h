@@ -33,6 +33,12 @@ struct ModelLine {
   bool gouraud = false;
 };
 
+/// Colours that are lit against the same background light: those before `end` that no run before holds.
+struct LitRun {
+  std::size_t end = 0;
+  std::array<std::int32_t, 3> self_light{};  ///< 1.19.12, added to BK: Material::self_light
+};
+
 /// Faces name colours by number. They stand in three runs, by what a frame has to do to them.
 struct ModelColours {
   std::vector<gte::Colour> given;       ///< all, before light and fog
@@ -40,6 +46,7 @@ struct ModelColours {
   std::vector<gte::Vertex> normal;      ///< of the lit: 1.3.12
   std::vector<glm::vec3> exact_normal;  ///< of the lit, for instances that are not scaled evenly
   std::size_t lit = 0;                  ///< given[0, lit) are lit (and fogged)
+  std::vector<LitRun> lit_runs;         ///< the lit, in order
   std::size_t cued = 0;                 ///< given[lit, cued) are only fogged; the rest stays as given
 };
 

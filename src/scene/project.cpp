@@ -213,11 +213,18 @@ void Shader::shade(const Placement& placement, const Projected& projected, bool 
     for (std::size_t i = 0; i < colours.cued; ++i) ir0_[i] = projected.ir0[colours.vertex[i]];
   }
   const std::span<const std::int16_t> ir0(ir0_);
-  if (colours.lit > 0) {
-    gte::light(placement.registers, fogged ? gte::Light::ncds : gte::Light::nccs,
-               normals_.empty() ? std::span(colours.normal) : std::span<const gte::Vertex>(normals_),
-               given.first(colours.lit), fogged ? ir0.first(colours.lit) : std::span<const std::int16_t>{},
-               {.rgb = out.data()});
+  const std::span normals =
+      normals_.empty() ? std::span(colours.normal) : std::span<const gte::Vertex>(normals_);
+  std::size_t begin = 0;
+  for (const LitRun& run : colours.lit_runs) {
+    gte::Registers registers = placement.registers;
+    for (std::size_t c = 0; c < 3; ++c) registers.bk[c].raw += run.self_light[c];
+    const std::size_t count = run.end - begin;
+    gte::light(registers, fogged ? gte::Light::ncds : gte::Light::nccs, normals.subspan(begin, count),
+               given.subspan(begin, count),
+               fogged ? ir0.subspan(begin, count) : std::span<const std::int16_t>{},
+               {.rgb = out.data() + begin});
+    begin = run.end;
   }
   const std::size_t cued = std::max(colours.cued, colours.lit);
   if (fogged && cued > colours.lit) {

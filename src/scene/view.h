@@ -28,10 +28,11 @@ struct Projection {
   [[nodiscard]] double centre_y() const { return height / 2; }
 };
 
-/// Vertices are projected within this rectangle; edges that leave it are cut there. Any two points in it obey
-/// the GPU's size rule (1023 x 511), and all of it is inside the GTE's -1024..1023.
+/// Vertices are projected within this rectangle; edges that leave it are cut there. Rounding a cut to whole
+/// units moves it by less than a pixel for each of the (at most three) planes it lies on, so any two points
+/// obey the GPU's size rule (1023 x 511), and all are inside the GTE's -1024..1023.
 struct GuardBand {
-  double half_width = 508, half_height = 253;  ///< from the picture's centre
+  double half_width = 507, half_height = 252;  ///< from the picture's centre
 };
 inline constexpr GuardBand guard_band;
 

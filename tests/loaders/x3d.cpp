@@ -289,8 +289,9 @@ TEST_SUITE("loaders") {
           "IndexedFaceSet coordIndex='0 1 2 -1 -1 2 1 3'"}) {
       CAPTURE(geometry);
       const std::string name(geometry, std::string(geometry).find(' '));
-      CHECK(area_of(mesh_of("<" + std::string(geometry) + ">" + square + "</" + name + ">")) ==
-            doctest::Approx(1));
+      CHECK(area_of(mesh_of(
+                std::string("<").append(geometry).append(">").append(square).append("</").append(name).append(
+                    ">"))) == doctest::Approx(1));
     }
   }
 

@@ -21,9 +21,9 @@ void interpolate_colour(const Paint& paint, const Planes& planes, const Position
       continue;
     }
     if (paint.perspective) {
-      interpolate(planes.over_z[c], z, positions, count, 0, 255 * 256, values);
+      interpolate(planes.over_z[c], z, positions, 0, 255 * 256, values);
     } else {
-      interpolate(planes.integer[c], planes.shift, positions, count, values);
+      interpolate(planes.integer[c], planes.shift, positions, values);
     }
     round_to_byte(values, count);
   }
@@ -33,32 +33,27 @@ void interpolate_texture(const Paint& paint, const Planes& planes, const Positio
                          const std::array<double, run_length>& z, int count, Fragments& f) {
   const auto& box = paint.box;
   if (paint.perspective) {
-    interpolate(planes.over_z[3], z, positions, count, box.u_min * 256, box.u_max * 256, f.u);
-    interpolate(planes.over_z[4], z, positions, count, box.v_min * 256, box.v_max * 256, f.v);
+    interpolate(planes.over_z[3], z, positions, box.u_min * 256, box.u_max * 256, f.u);
+    interpolate(planes.over_z[4], z, positions, box.v_min * 256, box.v_max * 256, f.v);
   } else {
-    interpolate(planes.integer[3], planes.shift, positions, count, f.u);
-    interpolate(planes.integer[4], planes.shift, positions, count, f.v);
+    interpolate(planes.integer[3], planes.shift, positions, f.u);
+    interpolate(planes.integer[4], planes.shift, positions, f.v);
   }
   if (paint.filter >= Filter::mipmap) choose_levels(paint, planes, positions, z, count, f);
 }
 
 /// z (in units of 4096ths, as the plane has it) at every pixel; a z that is not positive reads as far away.
-void interpolate_z(const Planes& planes, const Positions& positions, int count,
-                   std::array<double, run_length>& z) {
-  for (int i = 0; i < count; ++i) {
-    const Point p = positions.at(i);
-    const double inverse = planes.inverse_z.at(p.x, p.y);
-    z[static_cast<std::size_t>(i)] = inverse > 1e-12 ? 1 / inverse : 1e12;
-  }
+void interpolate_z(const Planes& planes, const Positions& positions, std::array<double, run_length>& z) {
+  positions.each(planes.inverse_z,
+                 [&](std::size_t i, double inverse) { z[i] = 1 / (inverse > 1e-12 ? inverse : 1e-12); });
 }
 
-void fog_factors(const FogRamp& ramp, const Planes& planes, const Positions& positions, int count,
+void fog_factors(const FogRamp& ramp, const Planes& planes, const Positions& positions,
                  std::array<std::int32_t, run_length>& fog) {
-  for (int i = 0; i < count; ++i) {
-    const Point p = positions.at(i);
-    const double f = ramp.constant + ramp.slope * planes.inverse_z.at(p.x, p.y);
-    fog[static_cast<std::size_t>(i)] = static_cast<std::int32_t>((f > 0 ? (f < 1 ? f : 1) : 0) * 4096 + 0.5);
-  }
+  positions.each(planes.inverse_z, [&](std::size_t i, double inverse) {
+    const double f = ramp.constant + ramp.slope * inverse;
+    fog[i] = static_cast<std::int32_t>((f > 0 ? (f < 1 ? f : 1) : 0) * 4096 + 0.5);
+  });
 }
 
 /// Both coordinates in one word. Rounding may leave 0..255 by less than half a texel, so 128 keeps them
@@ -121,14 +116,14 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   constexpr bool textured = M.texture != Texturing::none;
   const Positions positions(target, planes, run);
   std::array<double, run_length> z;
-  if (paint.perspective) interpolate_z(planes, positions, run.count, z);
+  if (paint.perspective) interpolate_z(planes, positions, z);
   if constexpr (textured) {
     interpolate_texture(paint, planes, positions, z, run.count, f);
     fetch_texels<M.texture>(paint, run.count, f);
   }
   interpolate_colour(paint, planes, positions, z, run.count, f);
   std::array<std::int32_t, run_length> fog;
-  if (paint.fog != nullptr) fog_factors(*paint.fog, planes, positions, run.count, fog);
+  if (paint.fog != nullptr) fog_factors(*paint.fog, planes, positions, fog);
   shade<textured>(paint, run, fog, f);
   write<M>(target, paint, run, f, counters);
 }

@@ -40,6 +40,33 @@ class Positions {
     return {x_ + i * units_per_pixel + offset.x, y_ + offset.y};
   }
 
+  /// f(i, value of the plane) for the pixels of the run. Where they are taken at one offset, as nearly
+  /// always, a row is a start and a step, and the compiler vectorises the loop.
+  template <class F>
+  void each(const RealPlane& plane, F&& f) const {
+    if (run_.shaded_at != nullptr) {
+      for (int i = 0; i < run_.count; ++i) f(static_cast<std::size_t>(i), plane.at(at(i).x, at(i).y));
+      return;
+    }
+    const double start = plane.at(at(0).x, at(0).y);
+    const double step = plane.per_x * static_cast<double>(units_per_pixel);
+    for (int i = 0; i < run_.count; ++i) f(static_cast<std::size_t>(i), start + step * i);
+  }
+  template <class F>
+  void each(const IntegerPlane& plane, F&& f) const {
+    const auto value = [&](Point p) {
+      return plane.core + plane.per_x * static_cast<std::uint64_t>(p.x) +
+             plane.per_y * static_cast<std::uint64_t>(p.y);
+    };
+    if (run_.shaded_at != nullptr) {
+      for (int i = 0; i < run_.count; ++i) f(static_cast<std::size_t>(i), value(at(i)));
+      return;
+    }
+    std::uint64_t running = value(at(0));
+    const std::uint64_t step = plane.per_x * static_cast<std::uint64_t>(units_per_pixel);
+    for (int i = 0; i < run_.count; ++i, running += step) f(static_cast<std::size_t>(i), running);
+  }
+
  private:
   const Run& run_;
   std::int64_t x_, y_;
@@ -53,46 +80,40 @@ inline bool test_depth(const Target& target, const Paint& paint, const Planes& p
   const auto row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(target.width) +
                    static_cast<std::size_t>(run.x);
   const RealPlane& plane = planes.inverse_z;
-  bool any = false;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
-    const auto x = (run.x + static_cast<int>(i)) * units_per_pixel - planes.origin.x;
-    const auto y = run.y * units_per_pixel - planes.origin.y;
-    for (std::size_t s = 0; s < samples; ++s) {
-      if ((f.alive[i] >> s & 1) == 0) continue;
-      const Point at = target.samples[s];
-      const auto key = paint.depth_code->key(plane.at(x + at.x, y + at.y));
-      f.keys[i * samples + s] = key;
-      if (!paint.depth_code->passes(key, target.depth[(row + i) * samples + s])) {
-        f.alive[i] = static_cast<std::uint8_t>(f.alive[i] & ~(1U << s));
-      }
+  for (std::size_t sample = 0; sample < samples; ++sample) {
+    const Point at = target.samples[sample];
+    const double start = plane.at(run.x * units_per_pixel - planes.origin.x + at.x,
+                                  run.y * units_per_pixel - planes.origin.y + at.y);
+    const double step = plane.per_x * static_cast<double>(units_per_pixel);
+    for (int k = 0; k < run.count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const auto key = paint.depth_code->key(start + step * k);
+      f.keys[i * samples + sample] = key;
+      const bool visible = paint.depth_code->passes(key, target.depth[(row + i) * samples + sample]);
+      f.alive[i] = static_cast<std::uint8_t>(f.alive[i] & ~((visible ? 0U : 1U) << sample));
     }
-    any = any || f.alive[i] != 0;
   }
-  return any;
+  return std::any_of(f.alive.begin(), f.alive.begin() + run.count,
+                     [](std::uint8_t bits) { return bits != 0; });
 }
 
 /// Attribute `plane` as 8.8 fixed point, exactly the console's bits. [reference 5.3]
-inline void interpolate(const IntegerPlane& plane, int shift, const Positions& positions, int count,
+inline void interpolate(const IntegerPlane& plane, int shift, const Positions& positions,
                         std::array<std::int32_t, run_length>& out) {
-  for (int i = 0; i < count; ++i) {
-    const Point p = positions.at(i);
-    const auto value = plane.core + plane.per_x * static_cast<std::uint64_t>(p.x) +
-                       plane.per_y * static_cast<std::uint64_t>(p.y);
-    out[static_cast<std::size_t>(i)] =
-        static_cast<std::int32_t>(static_cast<std::int64_t>(value) >> (shift - 8));
-  }
+  positions.each(plane, [&](std::size_t i, std::uint64_t value) {
+    out[i] = static_cast<std::int32_t>(static_cast<std::int64_t>(value) >> (shift - 8));
+  });
 }
 
 /// Attribute over z, times z, as 8.8; kept inside low..high (8.8 too), which also catches a NaN.
 inline void interpolate(const RealPlane& over_z, const std::array<double, run_length>& z,
-                        const Positions& positions, int count, int low, int high,
+                        const Positions& positions, int low, int high,
                         std::array<std::int32_t, run_length>& out) {
-  for (int i = 0; i < count; ++i) {
-    const Point p = positions.at(i);
-    const double value = over_z.at(p.x, p.y) * z[static_cast<std::size_t>(i)] * 256 + 0.5;
-    const double kept = value > low ? (value < high ? value : high) : low;
-    out[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(kept);
-  }
+  positions.each(over_z, [&](std::size_t i, double value) {
+    const double scaled = value * z[i] * 256 + 0.5;
+    const double kept = scaled > low ? (scaled < high ? scaled : high) : low;
+    out[i] = static_cast<std::int32_t>(kept);
+  });
 }
 
 /// 8.8 to the nearest integer, with the console's eight-bit wrap.

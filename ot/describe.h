@@ -1,0 +1,16 @@
+#pragma once
+// A GP0 command in words, for listings.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace ot {
+
+/// One line about one command, without its opcode: "triangle, gouraud (0,0) ff0000 (8,0) 00ff00 (0,8)
+/// 0000ff". `words` are those of CommandStream::words(); `length` is the number of all its words (the
+/// vertices of a long polyline that are not among `words` are counted, not shown). Numbers are decimal;
+/// colours, pages and CLUTs are hexadecimal.
+std::string describe(std::span<const std::uint32_t> words, std::uint64_t length);
+
+}  // namespace ot

@@ -1,0 +1,254 @@
+// The program as its users meet it: run as a process, judged by exit status, stdout, stderr and files.
+
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/window_state.h"
+#include "demos/demos.h"
+#include "scene/knobs.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Outcome {
+  int status;
+  std::string out, err;
+};
+
+std::string contents(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// A fresh folder in which the program runs.
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("otter_tests_program_" + std::to_string(getpid()));
+  Folder() { fs::create_directories(path); }
+  ~Folder() { fs::remove_all(path); }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  // `arguments` as a shell would split them; `environment` before them, as "A=1 -u B".
+  [[nodiscard]] Outcome otter(const std::string& arguments, const std::string& environment = "") const {
+    const auto line = "cd '" + path.string() + "' && env " + environment + " '" OTTER_PROGRAM "' " +
+                      arguments + " > .out 2> .err < /dev/null";
+    const int status = std::system(line.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path / ".out"), contents(path / ".err")};
+  }
+  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(path / name); }
+};
+
+bool is_one_line(const std::string& text) {
+  return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
+}
+
+bool mentions(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+
+const std::string no_display = "-u DISPLAY -u WAYLAND_DISPLAY -u SDL_VIDEODRIVER -u XDG_RUNTIME_DIR";
+
+}  // namespace
+
+TEST_SUITE("otter") {
+  TEST_CASE("--help and --version exit 0 and say it on stdout") {
+    const Folder folder;
+    const auto help = folder.otter("--help");
+    CHECK(help.status == 0);
+    CHECK(help.err.empty());
+    for (const auto& command : app::commands) CHECK(mentions(help.out, command.name));
+    CHECK(folder.otter("--version").out.starts_with("otter "));
+  }
+
+  TEST_CASE("every command has a help with examples of itself") {
+    const Folder folder;
+    for (const auto& command : app::commands) {
+      const auto help = folder.otter(std::string(command.name) + " --help");
+      CAPTURE(std::string(command.name));
+      CHECK(help.status == 0);
+      CHECK(help.err.empty());
+      CHECK(mentions(help.out, "Examples:\n  otter " + std::string(command.name)));
+    }
+  }
+
+  TEST_CASE("every knob is an option of render and run, with its values in the help") {
+    const Folder folder;
+    for (const auto* command : {"render", "run"}) {
+      const auto help = folder.otter(std::string(command) + " --help").out;
+      for (const auto& knob : scene::knob_table()) {
+        CAPTURE(std::string(knob.name));
+        CHECK(mentions(help, "--" + std::string(knob.name)));
+        CHECK((knob.values == "off|on" || mentions(help, knob.values)));
+      }
+    }
+  }
+
+  TEST_CASE("the help of run names every key of the window") {
+    const Folder folder;
+    CHECK(mentions(folder.otter("run --help").out, app::key_help()));
+  }
+
+  TEST_CASE("bad usage is one line on stderr that names what was wrong and what was expected, and exit 2") {
+    const Folder folder;
+    struct Row {
+      const char* arguments;
+      std::vector<std::string> said;
+    };
+    const std::vector<Row> rows{
+        {"", {"no command", "render"}},
+        {"paint", {"paint: no such command", "render"}},
+        {"--paint", {"--paint"}},
+        {"list --paint", {"--paint"}},
+        {"list --names --long", {"--names", "--long"}},
+        {"render", {"SCENE or FILE", "crates"}},
+        {"render crates", {"--output"}},
+        {"render nowhere -o x.png", {"nowhere: no such scene", "crates", "cyclic"}},
+        {"render nowhere.obj -o x.png", {"nowhere.obj"}},
+        {"render crates -o x.png --frame -1", {"--frame", "0"}},
+        {"render crates -o x.png --frame 1.5", {"--frame"}},
+        {"render crates -o x.png --frame", {"--frame"}},
+        {"render crates -o x.png --size 300x200", {"--size 300x200", "320"}},
+        {"render crates -o x.png --buckets 0", {"--buckets 0", "1..65536"}},
+        {"render crates -o x.png --buckets many", {"--buckets many", "1..65536"}},
+        {"render crates -o x.png --visibility magic", {"--visibility magic", "ot|sorted|bsp|zbuffer"}},
+        {"render crates -o x.png --near nan", {"--near nan"}},
+        {"render crates -o x.png --near 100 --far 50", {"--near 100", "--far 50"}},
+        {"render crates -o x.png --magic", {"--magic"}},
+        {"render crates glass -o x.png", {"glass"}},
+        {"render --all crates", {"--all"}},
+        {"render --all -o x.png", {"--all", "--directory"}},
+        {"run nowhere", {"nowhere: no such scene", "crates"}},
+        {"run --pace 3", {"--pace", "vsync"}},
+        {"run --scale 0", {"--scale"}},
+    };
+    for (const auto& [arguments, said] : rows) {
+      const auto outcome = folder.otter(arguments);
+      CAPTURE(std::string(arguments));
+      CAPTURE(outcome.err);
+      CHECK(outcome.status == 2);
+      CHECK(outcome.out.empty());
+      CHECK(is_one_line(outcome.err));
+      CHECK(outcome.err.starts_with("otter"));
+      for (const auto& part : said) CHECK(mentions(outcome.err, part));
+      CHECK_FALSE(folder.has("x.png"));
+    }
+  }
+
+  TEST_CASE("list names every demo; --names names alone, one a line") {
+    const Folder folder;
+    const auto names = folder.otter("list --names");
+    std::string expected;
+    for (const auto& demo : demos::all()) expected.append(demo.name).append("\n");
+    CHECK(names.status == 0);
+    CHECK(names.out == expected);
+    const auto listed = folder.otter("list").out;
+    const auto all = folder.otter("list --long").out;
+    for (const auto& demo : demos::all()) {
+      CHECK(mentions(listed, demo.title));
+      CHECK_FALSE(mentions(listed, demo.shows));
+      CHECK(mentions(all, demo.shows));
+    }
+  }
+
+  TEST_CASE("render writes the PNG of the mode's size and says so in one line") {
+    const Folder folder;
+    const auto rendered = folder.otter("render crates -o x.png --size 512x240");
+    CHECK(rendered.status == 0);
+    CHECK(rendered.err.empty());
+    CHECK(is_one_line(rendered.out));
+    CHECK(rendered.out.starts_with("x.png: crates frame 0, 512x240, "));
+    const auto png = contents(folder.path / "x.png");
+    REQUIRE(png.size() > 33);
+    CHECK(png.substr(1, 3) == "PNG");
+    CHECK(png.substr(16, 8) == std::string("\0\0\2\0\0\0\0\xf0", 8));  // IHDR: 512, 240
+  }
+
+  TEST_CASE("the same frame is the same file, another frame another") {
+    const Folder folder;
+    REQUIRE(folder.otter("render crates -o a.png --frame 7").status == 0);
+    REQUIRE(folder.otter("render crates -o b.png --frame 7").status == 0);
+    REQUIRE(folder.otter("render crates -o c.png --frame 8").status == 0);
+    CHECK(contents(folder.path / "a.png") == contents(folder.path / "b.png"));
+    CHECK(contents(folder.path / "a.png") != contents(folder.path / "c.png"));
+  }
+
+  TEST_CASE("a knob given twice counts as last given") {
+    const Folder folder;
+    REQUIRE(folder.otter("render crates -o a.png --size 640x480 --size 320x240").status == 0);
+    REQUIRE(folder.otter("render crates -o b.png").status == 0);
+    CHECK(contents(folder.path / "a.png") == contents(folder.path / "b.png"));
+  }
+
+  TEST_CASE("an output that cannot be written is exit 1, one line, and no file") {
+    const Folder folder;
+    const auto outcome = folder.otter("render crates -o nowhere/x.png");
+    CHECK(outcome.status == 1);
+    CHECK(is_one_line(outcome.err));
+    CHECK(mentions(outcome.err, "nowhere/x.png: cannot be written"));
+    CHECK_FALSE(folder.has("nowhere"));
+  }
+
+  TEST_CASE("a full standard output is exit 1") {
+    const Folder folder;
+    CHECK((std::system("'" OTTER_PROGRAM "' list > /dev/full 2> /dev/null") >> 8) == 1);
+  }
+
+  TEST_CASE("render --all writes every demo, a line each, without a display") {
+    const Folder folder;
+    const auto outcome = folder.otter("render --all --directory out/deep", no_display);
+    CHECK(outcome.status == 0);
+    for (const auto& demo : demos::all()) {
+      CHECK(folder.has("out/deep/" + std::string(demo.name) + ".png"));
+      CHECK(mentions(outcome.out, "out/deep/" + std::string(demo.name) + ".png: "));
+    }
+    CHECK(mentions(outcome.out, std::to_string(demos::all().size()) + " scenes rendered"));
+  }
+
+  TEST_CASE("a window without a display is exit 2 and one line") {
+    const Folder folder;
+    const auto outcome = folder.otter("run", no_display);
+    CHECK(outcome.status == 2);
+    CHECK(is_one_line(outcome.err));
+    CHECK(mentions(outcome.err, "no display"));
+  }
+
+  TEST_CASE("the window runs on SDL's dummy driver and quits after --frames") {
+    const Folder folder;
+    for (const auto* arguments : {"", "--split", "--differences", "--visibility zbuffer --split --pace 60"}) {
+      CAPTURE(std::string(arguments));
+      const auto outcome = folder.otter("run --frames 5 " + std::string(arguments), "SDL_VIDEODRIVER=dummy");
+      CHECK(outcome.status == 0);
+      CHECK(outcome.err.empty());
+      CHECK(outcome.out.empty());
+    }
+  }
+
+  TEST_CASE("the window's last frame can be written: the picture at --scale and the status line") {
+    const Folder folder;
+    const auto outcome =
+        folder.otter("run crates --frames 2 --scale 2 --screenshot w.png", "SDL_VIDEODRIVER=dummy");
+    CHECK(outcome.status == 0);
+    const auto png = contents(folder.path / "w.png");
+    REQUIRE(png.size() > 33);
+    CHECK(png.substr(16, 4) == std::string("\0\0\2\x80", 4));  // IHDR: 640 wide
+  }
+
+  TEST_CASE("every demo shows in the window without a word on stderr") {
+    const Folder folder;
+    for (const auto& demo : demos::all()) {
+      CAPTURE(std::string(demo.name));
+      const auto outcome =
+          folder.otter("run " + std::string(demo.name) + " --frames 2", "SDL_VIDEODRIVER=dummy");
+      CHECK(outcome.status == 0);
+      CHECK(outcome.err.empty());
+    }
+  }
+}

@@ -1,0 +1,1 @@
+otter_bench(frames LIBRARIES demos SOURCES frames.cpp)

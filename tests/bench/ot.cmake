@@ -1,0 +1,1 @@
+otter_bench(ot LIBRARIES ot SOURCES ot.cpp)

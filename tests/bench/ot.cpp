@@ -1,0 +1,174 @@
+// `./run bench ot`: what ordering costs. Random depths, 4096 buckets, packets of 40 bytes; nanoseconds per
+// primitive, the best of rounds in which all rows take turns. `./run bench ot --plot docs/ot-growth.svg`
+// draws the growth.
+//
+// The table and its list live in one memory with word links, because a million packets do not fit into 8 MiB;
+// the console's byte links are measured where they do.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "ot/flat_list.h"
+#include "ot/ordering_table.h"
+#include "ot/packet.h"
+#include "ot/sort.h"
+#include "ot/walker.h"
+
+namespace {
+
+constexpr std::uint32_t buckets = 4096;
+constexpr std::uint32_t packet_words = 10;  // a tag and the 9 words of a textured quad
+
+using Clock = std::chrono::steady_clock;
+
+/// A GPU as far as the walk is concerned: every word is read.
+struct Reader {
+  std::uint64_t sum = 0;
+  void operator()(std::uint32_t, std::span<const std::uint32_t> payload) {
+    for (const auto word : payload) sum += word;
+  }
+};
+
+struct Times {
+  double insert = 1e9, plain_walk = 1e9, follow = 1e9, send = 1e9, std_sort = 1e9, radix = 1e9;
+  [[nodiscard]] double plain() const { return insert + plain_walk; }
+  [[nodiscard]] double flat() const { return insert + follow + send; }
+};
+
+template <class Links>
+struct Workload {
+  std::vector<std::uint32_t> memory;
+  ot::BasicOrderingTable<Links> table;
+  std::vector<std::uint32_t> depth, node;
+  ot::FlatList<Links> list;
+  std::vector<ot::Keyed> keyed, sorted;
+
+  explicit Workload(std::uint32_t count)
+      : memory(std::max<std::size_t>(power_of_two(buckets + std::size_t{count} * packet_words), 1024)),
+        table(memory, 0, buckets) {
+    std::mt19937 random(1);
+    for (std::uint32_t n = 0; n < count; ++n) {
+      const auto index = buckets + n * packet_words;
+      memory[index] = ot::tag::make(ot::tag::end, packet_words - 1);
+      for (std::uint32_t w = 1; w < packet_words; ++w) memory[index + w] = n + w;
+      depth.push_back(static_cast<std::uint32_t>(random() % buckets));
+      node.push_back(index * Links::unit);
+    }
+    sorted.resize(count);
+  }
+
+  static std::size_t power_of_two(std::size_t at_least) {
+    std::size_t size = 1;
+    while (size < at_least) size *= 2;
+    return size;
+  }
+
+  void insert_all() {
+    table.clear();
+    for (std::size_t n = 0; n < node.size(); ++n) table.insert(depth[n], node[n]);
+  }
+};
+
+[[noreturn]] void wrong(const char* what) {
+  std::fprintf(stderr, "bench_ot: %s\n", what);
+  std::exit(1);
+}
+
+template <class Links>
+Times measure(std::uint32_t count) {
+  Workload<Links> work(count);
+  Times best;
+  const auto take = [&](double& into, auto&& body) {
+    const auto begin = Clock::now();
+    body();
+    const std::chrono::duration<double, std::nano> taken = Clock::now() - begin;
+    into = std::min(into, taken.count() / count);
+  };
+  const auto rounds = std::clamp<std::uint32_t>(2'000'000 / count, 7, 200);
+  for (std::uint32_t round = 0; round < rounds; ++round) {
+    Reader plain, flat;
+    ot::WalkResult followed;
+    take(best.insert, [&] { work.insert_all(); });
+    take(best.plain_walk, [&] { ot::walk<Links>(work.memory, work.table.head(), plain); });
+    take(best.follow, [&] { followed = work.list.follow(work.table, work.table.head()); });
+    take(best.send, [&] { work.list.send(flat); });
+    if (!followed || followed.nodes != count + buckets || plain.sum != flat.sum) wrong("the walks differ");
+
+    work.keyed.clear();
+    for (std::uint32_t n = 0; n < count; ++n)
+      work.keyed.push_back({work.depth[n], work.node[n], work.node[n]});
+    take(best.radix, [&] { ot::radix_pass<ot::Keyed>(work.keyed, work.sorted, 0, 12); });
+    take(best.std_sort, [&] {
+      std::sort(work.keyed.begin(), work.keyed.end(),
+                [](const auto& a, const auto& b) { return a.key < b.key; });
+    });
+    for (std::uint32_t n = 0; n < count; ++n) {
+      if (work.keyed[n].key != work.sorted[n].key) wrong("the sorts differ");
+    }
+  }
+  return best;
+}
+
+void print_row(std::uint32_t count, const char* links, const Times& t) {
+  std::printf("%9u %-5s %7.1f %7.1f %7.1f %7.1f | %8.1f %8.1f | %8.1f %8.1f\n", count, links, t.insert,
+              t.plain_walk, t.follow, t.send, t.plain(), t.flat(), t.std_sort, t.radix);
+}
+
+/// gnuplot reads the program from stdin; the numbers are in it.
+int plot(const std::string& path) {
+  std::vector<std::pair<std::uint32_t, Times>> rows;
+  for (int step = 0; step <= 12; ++step) {
+    const auto count = static_cast<std::uint32_t>(std::lround(std::pow(10.0, 3 + step / 4.0)));
+    rows.emplace_back(count, measure<ot::WordLinks>(count));
+    print_row(rows.back().first, "words", rows.back().second);
+  }
+  std::FILE* gnuplot = popen("gnuplot", "w");
+  if (gnuplot == nullptr) return 1;
+  std::fprintf(gnuplot,
+               "set terminal svg size 760,480 font 'sans-serif,13' background rgb 'white'\n"
+               "set output '%s'\n"
+               "set title 'Ordering primitives: a table of 4096 buckets against two sorts'\n"
+               "set logscale x\nset xlabel 'primitives'\nset ylabel 'nanoseconds per primitive'\n"
+               "set format x '10^{%%T}'\nset grid\nset key top left\nset yrange [0:]\n$data << EOD\n",
+               path.c_str());
+  for (const auto& [count, t] : rows) {
+    std::fprintf(gnuplot, "%u %g %g %g %g %g\n", count, t.insert, t.flat(), t.plain(), t.std_sort, t.radix);
+  }
+  std::fputs(
+      "EOD\n"
+      "plot $data using 1:5 with linespoints lw 2 title 'std::sort alone, O(n log n)', \\\n"
+      "     '' using 1:4 with linespoints lw 2 title 'table: insert and plain walk', \\\n"
+      "     '' using 1:3 with linespoints lw 2 title 'table: insert and flat walk', \\\n"
+      "     '' using 1:6 with linespoints lw 2 title 'one-pass radix sort alone', \\\n"
+      "     '' using 1:2 with linespoints lw 2 title 'table: insert alone'\n",
+      gnuplot);
+  if (pclose(gnuplot) != 0) wrong("gnuplot failed");
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool plots = argc == 3 && std::strcmp(argv[1], "--plot") == 0;
+  if (argc > 1 && !plots) {
+    std::fputs("usage: bench_ot [--plot FILE.svg]\n", stderr);
+    return 2;
+  }
+  std::printf("%u buckets, packets of %u bytes, ns per primitive\n", buckets, packet_words * 4);
+  std::puts("primitives links  insert    walk  follow    send | ins+walk ins+flat | std::sort    radix");
+  if (plots) return plot(argv[2]);
+  print_row(10'000, "bytes", measure<ot::ByteLinks>(10'000));
+  print_row(100'000, "bytes", measure<ot::ByteLinks>(100'000));
+  for (const std::uint32_t count : {10'000U, 100'000U, 1'000'000U})
+    print_row(count, "words", measure<ot::WordLinks>(count));
+  return 0;
+}

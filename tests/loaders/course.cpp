@@ -1,0 +1,117 @@
+// Scenes of a university course beside the pictures they should give. The pictures were drawn at other sizes,
+// some with very large pixels, and by a browser whose primaries are not ours: shapes and places are compared,
+// colours roughly.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "../vectors.h"
+#include "display/scanout.h"
+#include "gpu/gpu.h"
+#include "ot/main_ram.h"
+#include "scene/image.h"
+#include "scene/load.h"
+#include "scene/pipeline.h"
+
+namespace {
+
+struct Colour {
+  double r = 0, g = 0, b = 0;
+  [[nodiscard]] bool is_drawn() const { return std::max({r, g, b}) > 24; }
+};
+
+// Colours of a picture of any size, asked for where 0,0 is its middle and +-1 its upper and lower edge.
+struct View {
+  int width = 0, height = 0;
+  std::vector<scene::Rgba8> pixels;
+  [[nodiscard]] Colour at(double x, double y) const {
+    const double column = width / 2.0 + x * height / 2, row = height / 2.0 + y * height / 2;
+    const auto clamped = [](double v, int size) {
+      return std::clamp(static_cast<int>(std::floor(v)), 0, size - 1);
+    };
+    const auto& p = pixels[static_cast<std::size_t>(clamped(row, height) * width + clamped(column, width))];
+    return {double(p.r), double(p.g), double(p.b)};
+  }
+  [[nodiscard]] double half_width() const { return static_cast<double>(width) / height; }
+};
+
+View reference(const std::filesystem::path& file) {
+  const auto bytes = scene::read_file(file, scene::limits::picture_bytes);
+  REQUIRE(bytes);
+  auto picture = scene::decode_picture(*bytes);
+  REQUIRE(picture);
+  return {picture->width, picture->height, std::move(picture->pixels)};
+}
+
+View drawn(const std::filesystem::path& file) {
+  const auto loaded = scene::load(file);
+  REQUIRE(loaded);
+  CHECK(loaded->warnings.empty());
+  scene::Knobs knobs;
+  knobs.visibility = scene::Visibility::zbuffer;
+  scene::FrameBuilder builder(loaded->scene, knobs);
+  gpu::Gpu gpu;
+  ot::MainRam ram(ot::RamSize::mib8);
+  builder.upload(gpu);
+  REQUIRE(scene::render_frame(builder, 0, knobs, ram, gpu));
+  const auto picture = display::scan_out(gpu.vram().pixels(), display::area_of(gpu.display()));
+  View view{picture.width, picture.height, {}};
+  for (const auto& p : picture.pixels) view.pixels.push_back({p.r, p.g, p.b, 255});
+  return view;
+}
+
+struct Difference {
+  double shape = 0;   // share of the points drawn in either that are not drawn in both
+  double colour = 0;  // mean difference of a channel where both are drawn
+};
+
+Difference compare(const View& a, const View& b) {
+  const double side = std::min(a.half_width(), b.half_width()) * 0.98;
+  int both = 0, either = 0;
+  double colour = 0;
+  for (double y = -0.98; y < 0.98; y += 0.01) {
+    for (double x = -side; x < side; x += 0.01) {
+      const Colour p = a.at(x, y), q = b.at(x, y);
+      either += p.is_drawn() || q.is_drawn() ? 1 : 0;
+      if (!p.is_drawn() || !q.is_drawn()) continue;
+      ++both;
+      colour += (std::abs(p.r - q.r) + std::abs(p.g - q.g) + std::abs(p.b - q.b)) / 3;
+    }
+  }
+  REQUIRE(both > 0);
+  return {1 - static_cast<double>(both) / either, colour / both};
+}
+
+TEST_SUITE("loaders") {
+  TEST_CASE("course scenes look like the course's pictures") {
+    struct Course {
+      const char* name;
+      double shape, colour;  // the most by which they may differ; large pixels differ more at their edges
+    };
+    for (const Course& course : {Course{"caixas", 0.03, 12},
+                                 {"dois_tri", 0.25, 12},
+                                 {"flechas", 0.06, 40},
+                                 {"leques", 0.05, 40},
+                                 {"quadrado", 0.03, 40},
+                                 {"retangulos", 0.05, 40},
+                                 {"textura", 0.03, 50},
+                                 {"texturas", 0.03, 50},
+                                 {"transparente", 0.03, 45},
+                                 {"tri_color", 0.35, 60},
+                                 {"triangulos", 0.25, 40},
+                                 {"varios_triangs", 0.06, 40}}) {
+      CAPTURE(course.name);
+      const auto folder = tests::vector_path((std::string("x3d/") + course.name).c_str());
+      if (!folder) continue;
+      const Difference d = compare(drawn(*folder / (std::string(course.name) + ".x3d")),
+                                   reference(*folder / (std::string(course.name) + ".png")));
+      MESSAGE(course.name, ": shape ", d.shape, ", colour ", d.colour);
+      CHECK(d.shape < course.shape);
+      CHECK(d.colour < course.colour);
+    }
+  }
+}
+
+}  // namespace
