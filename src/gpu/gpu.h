@@ -87,9 +87,9 @@ class Gpu {
 
   // --- accurate target ---
 
-  /// Sets the target beside VRAM; nothing is the console. Primitives whose drawing area touches the canvas are
-  /// drawn there instead of in VRAM; fills, copies and uploads act on both. Whoever draws a frame begins and
-  /// ends it on the canvas too. Allocates unless the options are those it has.
+  /// Sets the target beside VRAM; nothing is the console. Primitives whose drawing area touches the canvas
+  /// are drawn there instead of in VRAM; fills, copies and uploads act on both. Whoever draws a frame begins
+  /// and ends it on the canvas too. Allocates unless the options are those it has.
   void set_canvas(const std::optional<canvas::Options>& options);
   /// nullptr without set_canvas.
   [[nodiscard]] canvas::Canvas* canvas() { return canvas_.get(); }
@@ -99,6 +99,7 @@ class Gpu {
 
   /// nullptr: nobody watches and nothing is paid.
   void set_trace(Trace* trace) { trace_ = trace; }
+  [[nodiscard]] Trace* trace() const { return trace_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
   void reset_counters() { counters_ = {}; }
   /// Bytes held besides VRAM, by purpose: depth plane, queue.

@@ -94,6 +94,12 @@ Result<void> use_targets(const FrameBuilder& builder, const Knobs& knobs, gpu::G
                 std::to_string(canvas::Canvas::frame_bytes(*wanted)) + " bytes; expected at most " +
                 std::to_string(canvas_limit_bytes));
   }
+  if (wanted && knobs.visibility == Visibility::bsp) {
+    return fail(
+        "--visibility bsp: pieces of polygons are drawn on the console's own pixels; expected the accurate "
+        "knobs "
+        "(position, texture, filter, colour 24, antialias, fog, resolution) at the console's settings");
+  }
   const auto depth = wanted ? std::nullopt : depth_options(knobs);
   const auto* plane = gpu.depth_plane();
   if (depth != (plane != nullptr ? std::optional(plane->options()) : std::nullopt)) gpu.set_depth(depth);

@@ -9,6 +9,7 @@
 #include "gpu/gpu.h"
 #include "ot/gp0.h"
 #include "scene/angle.h"
+#include "scene/bsp.h"
 #include "scene/lists.h"
 #include "scene/model.h"
 #include "scene/submit.h"
@@ -111,13 +112,16 @@ struct FrameBuilder::State {
     PacketStyle s;
     s.windows = pack.uses_windows;
     s.depth = annotate == Annotate::always || needs_depth(knobs);
-    s.fractions = annotate == Annotate::always || needs_fractions(knobs);
+    s.fractions = needs_fractions(knobs);  // depth is that of the corners as drawn
     if (needs_fractions(knobs)) s.fraction_mask = fraction_mask(knobs.position);
     s.draw_mode = draw_mode_of(knobs);
     return s;
   }
 
-  [[nodiscard]] static BucketRule rule(const Knobs& knobs) {
+  [[nodiscard]] BucketRule rule(const Knobs& knobs) const {
+    if (knobs.visibility == Visibility::bsp) {
+      return {std::max(1U, static_cast<std::uint32_t>(split.far_to_near().size())), 0, 0};
+    }
     if (knobs.visibility != Visibility::sorted)
       return {static_cast<std::uint32_t>(knobs.buckets), knobs.bias, 1};
     const std::int64_t step = std::max(1, 65536 / knobs.buckets);  // a bias means the same depth
@@ -162,6 +166,16 @@ struct FrameBuilder::State {
       Submitter<Sink>(submission, stats, sink).submit();
       stats.gte_ms += middle - start;
       stats.ot_ms += now_ms() - middle;
+    }
+  }
+
+  // Everything that goes into the list of this frame, in the order in which it is inserted.
+  template <class Sink>
+  void feed(const Knobs& knobs, const Wanted& wanted, FrameStats& stats, Sink& sink) {
+    if (knobs.visibility != Visibility::bsp) return pass(knobs, wanted, stats, sink);
+    const auto& ordered = split.far_to_near();
+    for (std::size_t i = 0; i < ordered.size(); ++i) {
+      sink.add(ordered[i].primitive, static_cast<std::uint32_t>(ordered.size() - 1 - i));
     }
   }
 
@@ -224,6 +238,7 @@ struct FrameBuilder::State {
   std::vector<gte::Colour> colours;
   Shader shader;
   ListBuilder list;
+  SplitOrder split;  // visibility bsp
 
   // The frame being drawn.
   Knobs frame_knobs;
@@ -299,24 +314,37 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
   frame.number = round_saturated<std::uint32_t>(seconds * 60);
   frame.buffer_y = knobs.height == 240 && frame.number % 2 == 1 ? 240 : 0;
 
-  const auto rule = State::rule(knobs);
   const auto style = s.style(knobs, annotate);
   const auto environment = s.environment(knobs, frame.buffer_y);
   const Wanted wanted{style.depth, style.fractions, s.world.depth_cue.on && knobs.fog == Fog::vertex};
+  FrameStats collected;
+  if (knobs.visibility == Visibility::bsp) {
+    s.split.begin();
+    s.pass(knobs, wanted, collected, s.split);
+    const double before_split = now_ms();
+    s.split.finish(knobs.width, knobs.height, style.fractions ? style.fraction_mask : std::uint8_t{0});
+    collected.ot_ms += now_ms() - before_split;
+    collected.splits = s.split.splits();
+  }
+  collected.gte_ms += frame.stats.gte_ms;
+  frame.stats = collected;
+  const auto rule = s.rule(knobs);
   const double before_clear = now_ms();
   s.list.begin(ram, knobs, rule, style, {0, rule.length - 1}, environment);
   frame.stats.ot_ms += now_ms() - before_clear;
-  s.pass(knobs, wanted, frame.stats, s.list);
+  s.feed(knobs, wanted, frame.stats, s.list);
   if (s.list.is_full()) {
     BucketSizes sizes(rule, style);
-    frame.stats = FrameStats{.gte_ms = frame.stats.gte_ms, .ot_ms = frame.stats.ot_ms};
-    s.pass(knobs, wanted, frame.stats, sizes);
+    collected.gte_ms = frame.stats.gte_ms;
+    collected.ot_ms = frame.stats.ot_ms;
+    frame.stats = collected;
+    s.feed(knobs, wanted, frame.stats, sizes);
     auto ranges = sizes.ranges(ListBuilder::room(ram, s.list.table_length()));
     if (!ranges) return tl::make_unexpected(ranges.error());
     s.ranges = std::move(*ranges);
     FrameStats again;
     s.list.begin(ram, knobs, rule, style, s.ranges[0], environment);
-    s.pass(knobs, wanted, again, s.list);
+    s.feed(knobs, wanted, again, s.list);
     s.next_range = 1;
     frame.nearer_lists = static_cast<std::uint32_t>(s.ranges.size() - 1);
   }
@@ -336,7 +364,7 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
 Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
   State& s = *state_;
   if (s.next_range >= s.ranges.size()) return fail("no list is left of this frame", Exit::failed);
-  const auto rule = State::rule(s.frame_knobs);
+  const auto rule = s.rule(s.frame_knobs);
   const auto style = s.style(s.frame_knobs, s.frame_annotate);
   const Wanted wanted{style.depth, style.fractions, s.world.depth_cue.on && s.frame_knobs.fog == Fog::vertex};
   // The environment stays as it is, but the picture must not be filled again.
@@ -344,7 +372,7 @@ Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
   environment.resize(environment.size() - 3);
   FrameStats again;
   s.list.begin(ram, s.frame_knobs, rule, style, s.ranges[s.next_range++], environment);
-  s.pass(s.frame_knobs, wanted, again, s.list);
+  s.feed(s.frame_knobs, wanted, again, s.list);
   s.list.end();
   frame.stats.gte_ms += again.gte_ms;
   frame.stats.ot_ms += again.ot_ms;
@@ -356,12 +384,28 @@ Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
   return {};
 }
 
+std::vector<NodeMark> FrameBuilder::marks() const {
+  std::vector<NodeMark> out;
+  const bool is_split = state_->frame_knobs.visibility == Visibility::bsp;
+  const auto& ordered = state_->split.far_to_near();
+  for (const auto& node : state_->list.sorted()) {
+    NodeMark mark{.tag = node.first, .key = node.key};
+    if (is_split) {
+      const OrderedPrimitive& piece = ordered[ordered.size() - 1 - node.key];
+      mark.key = none;
+      if (!piece.is_whole) mark.limits = gpu::Limits{piece.rows.top, piece.rows.spans};
+    }
+    out.push_back(mark);
+  }
+  return out;
+}
+
 void FrameBuilder::polygons(double seconds, const Knobs& knobs, std::vector<ScreenPolygon>& out) {
   State& s = *state_;
   prepare(knobs);
   s.move(seconds);
   out.clear();
-  const auto rule = State::rule(knobs);
+  const auto rule = s.rule(knobs);
   const auto style = s.style(knobs, Annotate::always);
   FrameStats stats;
   const auto collect = [&](const Primitive& p) {

@@ -7,10 +7,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "gpu/coverage.h"
 #include "ot/packet.h"
 #include "scene/error.h"
 #include "scene/knobs.h"
@@ -42,6 +44,7 @@ struct FrameStats {
   std::uint32_t faces = 0;                            ///< faces and lines of all instances
   std::array<std::uint32_t, drop_reasons> dropped{};  ///< faces and lines that drew nothing, by Drop
   std::uint32_t clipped = 0;                          ///< faces and lines that were cut
+  std::uint32_t splits = 0;                           ///< cuts that visibility bsp made
   std::uint32_t primitives = 0;                       ///< polygons and lines in the lists
   std::uint32_t lists = 0;                            ///< 1 unless the frame did not fit into RAM at once
   std::uint32_t words = 0;                            ///< payload words of all primitives and annotations
@@ -60,14 +63,20 @@ enum class Annotate : std::uint8_t { when_needed, always };
 /// The list that is in RAM now. A frame that fits has one. Otherwise `nearer_lists` more follow: draw this
 /// one, then FrameBuilder::next puts the next nearer one in its place.
 struct Frame {
-  std::uint32_t number = 0;  ///< t * 60, rounded: its parity chooses the buffer
-  std::uint32_t head = 0;    ///< address of the first tag: environment, then the table, far to near
-  std::uint32_t table_address =
-      0;                      ///< bucket b's tag is at table_address + 4 * b (visibility ot, bsp, zbuffer)
-  std::uint32_t buckets = 0;  ///< length of that table; 0: none (sorted)
-  std::uint32_t nearer_lists = 0;  ///< lists still to come
-  std::int32_t buffer_y = 0;       ///< where in VRAM this frame is drawn: (0, buffer_y)
+  std::uint32_t number = 0;         ///< t * 60, rounded: its parity chooses the buffer
+  std::uint32_t head = 0;           ///< address of the first tag: environment, then the table, far to near
+  std::uint32_t table_address = 0;  ///< bucket b's tag is at table_address + 4 * b (visibility ot, zbuffer)
+  std::uint32_t buckets = 0;        ///< length of that table; 0: none (sorted, bsp)
+  std::uint32_t nearer_lists = 0;   ///< lists still to come
+  std::int32_t buffer_y = 0;        ///< where in VRAM this frame is drawn: (0, buffer_y)
   FrameStats stats;
+};
+
+/// What the list in RAM does not say of a node: its sort key, and the pixels that a split polygon may draw.
+struct NodeMark {
+  std::uint32_t tag = 0;                   ///< the first tag of the primitive's nodes
+  std::uint32_t key = none;                ///< none: the order has no keys (bsp)
+  std::optional<gpu::Limits> limits = {};  ///< nothing: all of its pixels
 };
 
 /// A polygon as it will be drawn: the seam for everything that orders polygons in its own way (bsp, truth).
@@ -115,6 +124,10 @@ class FrameBuilder {
                                     Annotate annotate = Annotate::when_needed);
   /// Puts the next nearer list into `ram`; needs frame.nearer_lists > 0 and the knobs of build().
   [[nodiscard]] Result<void> next(Frame& frame, ot::MainRam& ram);
+
+  /// Visibility sorted and bsp: marks of the list that is in RAM now, in list order. Valid until the next
+  /// build().
+  [[nodiscard]] std::vector<NodeMark> marks() const;
 
   /// What build() would insert, in that order, lines left out. For visibility bsp and for inspection.
   void polygons(double seconds, const Knobs& knobs, std::vector<ScreenPolygon>& out);

@@ -57,7 +57,7 @@ struct Knobs {
   int subdivide = 1;  ///< n x n pieces of every textured polygon, 1..16
   Filter filter = Filter::nearest;
   Colour colour = Colour::bits15_dither;
-  Antialias antialias;
+  Antialias antialias{};
   AaFilter aa_filter = AaFilter::box;
   Fog fog = Fog::vertex;
   int resolution = 1;  ///< 1, 2, 4 or 8 times the console's

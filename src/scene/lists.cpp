@@ -34,11 +34,11 @@ std::size_t encode_annotation(const Primitive& p, const PacketStyle& style, std:
   return ot::encode(depth_of(p, style.fraction_mask, style.fractions), out);
 }
 
-void BucketSizes::operator()(const Primitive& p) {
+void BucketSizes::add(const Primitive& p, std::uint32_t bucket) {
   std::array<std::uint32_t, 16> words{};
   std::uint32_t bytes = node_bytes(encode(p, style_, words));
   if (const auto n = encode_annotation(p, style_, words); n > 0) bytes += node_bytes(n);
-  bytes_[rule_.of(p)] += bytes;
+  bytes_[bucket] += bytes;
 }
 
 Result<std::vector<BucketRange>> BucketSizes::ranges(std::uint32_t available) const {
@@ -73,7 +73,7 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   rule_ = rule;
   style_ = style;
   range_ = range;
-  sorts_ = knobs.visibility == Visibility::sorted;
+  sorts_ = knobs.visibility == Visibility::sorted || knobs.visibility == Visibility::bsp;
   order_ = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
   full_ = false;
   primitives_ = words_ = 0;
@@ -92,8 +92,7 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   first.push(environment);
 }
 
-void ListBuilder::operator()(const Primitive& p) {
-  const std::uint32_t bucket = rule_.of(p);
+void ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
   if (bucket < range_.first || bucket > range_.last || full_) return;
   std::array<std::uint32_t, 16> words;
   std::optional<std::uint32_t> note;

@@ -55,7 +55,8 @@ class BucketSizes {
  public:
   BucketSizes(const BucketRule& rule, const PacketStyle& style)
       : rule_(rule), style_(style), bytes_(rule.length) {}
-  void operator()(const Primitive& p);
+  void operator()(const Primitive& p) { add(p, rule_.of(p)); }
+  void add(const Primitive& p, std::uint32_t bucket);
   /// Ranges far to near, each at most `available` bytes. Error: the number of a bucket that is larger than
   /// that.
   [[nodiscard]] Result<std::vector<BucketRange>> ranges(std::uint32_t available) const;
@@ -72,9 +73,18 @@ class ListBuilder {
   /// Clears the table and writes the environment node.
   void begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule, const PacketStyle& style,
              const BucketRange& range, std::span<const std::uint32_t> environment);
-  void operator()(const Primitive& p);
+  void operator()(const Primitive& p) { add(p, rule_.of(p)); }
+  /// The same into a bucket of the caller's choice.
+  void add(const Primitive& p, std::uint32_t bucket);
   /// Links everything; afterwards the list can be walked from head().
   void end();
+
+  /// Visibility sorted and bsp, after end(): a primitive's bucket and the first tag of its nodes, in list
+  /// order.
+  struct Sorted {
+    std::uint32_t key, first, last;
+  };
+  [[nodiscard]] std::span<const Sorted> sorted() const { return sorted_; }
 
   [[nodiscard]] bool is_full() const { return full_; }
   [[nodiscard]] std::uint32_t head() const;

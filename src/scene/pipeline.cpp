@@ -1,6 +1,8 @@
 #include "scene/pipeline.h"
 
 #include <chrono>
+#include <optional>
+#include <vector>
 
 #include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
@@ -10,9 +12,50 @@
 namespace scene {
 namespace {
 
-Result<void> draw_list(const Frame& frame, const ot::MainRam& ram, gpu::Gpu& gpu) {
-  const auto result = ot::walk(
-      ram, frame.head, [&](std::uint32_t, std::span<const std::uint32_t> payload) { gpu.gp0(payload); });
+// Tells the GPU and whoever watches it what the words of a node do not say.
+class Marker {
+ public:
+  Marker(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs, gpu::Gpu& gpu)
+      : gpu_(gpu), table_address_(frame.table_address), buckets_(frame.buckets) {
+    const bool splits = knobs.visibility == Visibility::bsp;
+    if (splits || (knobs.visibility == Visibility::sorted && gpu.trace() != nullptr))
+      marks_ = builder.marks();
+  }
+  ~Marker() {
+    gpu_.set_limits(std::nullopt);
+    set_bucket(gpu::no_bucket);
+  }
+  Marker(const Marker&) = delete;
+  Marker& operator=(const Marker&) = delete;
+
+  void at(std::uint32_t tag) {
+    const std::uint32_t bucket = (tag - table_address_) / 4;
+    if (tag >= table_address_ && bucket < buckets_) set_bucket(bucket);
+    if (next_ == marks_.size() || marks_[next_].tag != tag) return;
+    const NodeMark& mark = marks_[next_++];
+    gpu_.set_limits(mark.limits);
+    set_bucket(mark.key == none ? gpu::no_bucket : mark.key);
+  }
+
+ private:
+  void set_bucket(std::uint32_t bucket) {
+    if (gpu_.trace() != nullptr) gpu_.trace()->bucket = bucket;
+  }
+
+  gpu::Gpu& gpu_;
+  std::uint32_t table_address_, buckets_;
+  std::vector<NodeMark> marks_;
+  std::size_t next_ = 0;
+};
+
+Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs,
+                       const ot::MainRam& ram, gpu::Gpu& gpu) {
+  Marker marker(builder, frame, knobs, gpu);
+  const auto result =
+      ot::walk(ram, frame.head, [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
+        marker.at(tag);
+        gpu.gp0(payload);
+      });
   if (!result)
     return fail("the list of frame " + std::to_string(frame.number) + ": " + result.message(), Exit::failed);
   return {};
@@ -29,7 +72,7 @@ Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs,
   gpu.begin_frame();
   if (gpu.canvas() != nullptr) gpu.canvas()->begin_frame(0, frame.buffer_y);
   for (;;) {
-    if (auto drawn = draw_list(frame, ram, gpu); !drawn) return drawn;
+    if (auto drawn = draw_list(builder, frame, knobs, ram, gpu); !drawn) return drawn;
     drawing += Clock::now() - start;
     if (frame.nearer_lists == 0) break;
     if (auto next = builder.next(frame, ram); !next) return next;
@@ -60,7 +103,9 @@ Result<FrameStats> render_frame(FrameBuilder& builder, double seconds, const Kno
     builder.prepare(knobs);
     builder.upload(gpu);
   }
-  auto frame = builder.build(seconds, knobs, ram);
+  // Whoever watches wants to know the depths, whether a knob needs them or not.
+  auto frame =
+      builder.build(seconds, knobs, ram, gpu.trace() != nullptr ? Annotate::always : Annotate::when_needed);
   if (!frame) return tl::make_unexpected(frame.error());
   if (auto drawn = draw_frame(builder, *frame, knobs, ram, gpu); !drawn)
     return tl::make_unexpected(drawn.error());

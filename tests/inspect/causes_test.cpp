@@ -13,7 +13,8 @@ TEST_SUITE("inspect") {
     Stage stage;
     stage.quad(0, 0, 8, 8, 300, {.bucket = 9});
     stage.quad(0, 0, 4, 4, 100, {.bucket = 5, .semi_transparent = true});
-    stage.quad(2, 2, 6, 6, 200, {.bucket = 5, .semi_transparent = true});  // shares 2x2 pixels with the one before
+    stage.quad(2, 2, 6, 6, 200,
+               {.bucket = 5, .semi_transparent = true});  // shares 2x2 pixels with the one before
     const auto report = stage.report();
     CHECK(is_exactly(report, Cause::blend_order, 4));
     CHECK(report.raw_count(Cause::bucket_tie) == 0);
@@ -54,8 +55,8 @@ TEST_SUITE("inspect") {
     CHECK(under.report().wrong_pixels() == 0);
   }
 
-  // 1/z of the slanted quad is 1/100 - x/1200; it meets 1/150 at x = 4. So it is nearer at x 0..3, the two are
-  // equal at x = 4, and the flat one is nearer at x 5..7.
+  // 1/z of the slanted quad is 1/100 - x/1200; it meets 1/150 at x = 4. So it is nearer at x 0..3, the two
+  // are equal at x = 4, and the flat one is nearer at x 5..7.
   TEST_CASE("Interpenetration: the flat quad hides the nearer half of the slanted one") {
     Stage stage;
     stage.quad(0, 0, 8, 8, 100, 300, {.bucket = 7});
@@ -73,14 +74,16 @@ TEST_SUITE("inspect") {
     CHECK(stage.report().wrong_pixels() == 0);
   }
 
-  // Four strips like the flaps of a closed box, two pixels wide. Along each, z goes from 100 to 300, so each lies
-  // under the next where they cross: top under right, right under bottom, bottom under left, left under top.
+  // Four strips like the flaps of a closed box, two pixels wide. Along each, z goes from 100 to 300, so each
+  // lies under the next where they cross: top under right, right under bottom, bottom under left, left under
+  // top.
   struct Flaps : Stage {
     explicit Flaps(int left_begins) {
       quad(0, 0, 8, 2, 100, 300, {.bucket = 8});
       upright(6, 0, 8, 8, 100, 300, {.bucket = 7});
       quad(0, 6, 8, 8, 300, 100, {.bucket = 6});
-      upright(0, left_begins, 2, 8, 300, 100, {.bucket = 5});  // drawn last, on top of the top one: 2x2 pixels
+      upright(0, left_begins, 2, 8, 300, 100,
+              {.bucket = 5});  // drawn last, on top of the top one: 2x2 pixels
     }
   };
 
@@ -117,8 +120,9 @@ TEST_SUITE("inspect") {
     CHECK(apart.report().wrong_pixels() == 0);
   }
 
-  // A floor from z 100 to z 900 (average 500) and a box on its far end at z 600: the average says the box is behind.
-  // At x = 6, 7 the floor's 1/z is 1/100 - x/900 = 1/300, 1/450: nearer than 600. At x = 7.5 it is 1/600.
+  // A floor from z 100 to z 900 (average 500) and a box on its far end at z 600: the average says the box is
+  // behind. At x = 6, 7 the floor's 1/z is 1/100 - x/900 = 1/300, 1/450: nearer than 600. At x = 7.5 it is
+  // 1/600.
   TEST_CASE("KeyInversion: averages put the long floor in front of the box that stands on it") {
     Stage stage;
     stage.quad(7, 0, 8, 8, 400, {.bucket = 600});

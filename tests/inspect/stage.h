@@ -1,5 +1,6 @@
 #pragma once
-// A small stage for hand-computed frames: polygons with depth and a bucket, drawn in the order they are added.
+// A small stage for hand-computed frames: polygons with depth and a bucket, drawn in the order they are
+// added.
 
 #include <array>
 #include <cstdint>
@@ -36,7 +37,8 @@ class Stage {
     gpu_.set_trace(&trace_);
   }
 
-  /// From now on 0,0 stands for (x, y) of VRAM, and 8 x 8 pixels from there are drawn on: many small frames in one.
+  /// From now on 0,0 stands for (x, y) of VRAM, and 8 x 8 pixels from there are drawn on: many small frames
+  /// in one.
   void move_to(std::uint32_t x, std::uint32_t y) {
     gpu_.gp0(0xe3000000 | y << 10 | x);
     gpu_.gp0(0xe4000000 | (y + 7) << 10 | (x + 7));
@@ -50,7 +52,10 @@ class Stage {
 
   /// The same with z in 20.12.
   void raw_polygon(std::initializer_list<Corner> corners, const Look& look, std::uint32_t unit = 1) {
-    ot::Polygon p{.quad = corners.size() == 4, .textured = look.texel.has_value(), .semi_transparent = look.semi_transparent, .raw = look.texel.has_value()};
+    ot::Polygon p{.quad = corners.size() == 4,
+                  .textured = look.texel.has_value(),
+                  .semi_transparent = look.semi_transparent,
+                  .raw = look.texel.has_value()};
     ot::DepthAnnotation depth{.count = static_cast<int>(corners.size())};
     std::size_t i = 0;
     for (const Corner& corner : corners) {
@@ -66,14 +71,16 @@ class Stage {
   }
 
   /// The screen rectangle x0..x1-1, y0..y1-1 with one depth on the left edge and one on the right.
-  void quad(int x0, int y0, int x1, int y1, std::uint32_t z_left, std::uint32_t z_right, const Look& look = {}) {
+  void quad(int x0, int y0, int x1, int y1, std::uint32_t z_left, std::uint32_t z_right,
+            const Look& look = {}) {
     polygon({{x0, y0, z_left}, {x1, y0, z_right}, {x0, y1, z_left}, {x1, y1, z_right}}, look);
   }
   void quad(int x0, int y0, int x1, int y1, std::uint32_t z, const Look& look = {}) {
     quad(x0, y0, x1, y1, z, z, look);
   }
   /// Depth goes from the top edge to the bottom edge.
-  void upright(int x0, int y0, int x1, int y1, std::uint32_t z_top, std::uint32_t z_bottom, const Look& look = {}) {
+  void upright(int x0, int y0, int x1, int y1, std::uint32_t z_top, std::uint32_t z_bottom,
+               const Look& look = {}) {
     polygon({{x0, y0, z_top}, {x1, y0, z_top}, {x0, y1, z_bottom}, {x1, y1, z_bottom}}, look);
   }
 

@@ -82,12 +82,15 @@ TEST_SUITE("inspect") {
         for (const auto& t : random.scene(kind_of(scene), 2 + scene % 5, size)) {
           surfaces.push_back({for_oracle(t), draw++, frame % 3 == 0 && random.between(0, 1) != 0});
           const auto& c = surfaces.back().corners;
-          stage.raw_polygon({{c[0].x / 256, c[0].y / 256, c[0].z}, {c[1].x / 256, c[1].y / 256, c[1].z}, {c[2].x / 256, c[2].y / 256, c[2].z}},
+          stage.raw_polygon({{c[0].x / 256, c[0].y / 256, c[0].z},
+                             {c[1].x / 256, c[1].y / 256, c[1].z},
+                             {c[2].x / 256, c[2].y / 256, c[2].z}},
                             {.bucket = 1, .semi_transparent = surfaces.back().blends});
         }
         for (int y = 0; y < size; ++y) {
           for (int x = 0; x < size; ++x) {
-            if (is_wrong(cast(surfaces, x, y))) expected.push_back(static_cast<std::uint32_t>((top + y) * 1024 + left + x));
+            if (is_wrong(cast(surfaces, x, y)))
+              expected.push_back(static_cast<std::uint32_t>((top + y) * 1024 + left + x));
           }
         }
       }
@@ -113,7 +116,8 @@ TEST_SUITE("inspect") {
   }
 
   TEST_CASE("the two triangles of a quad have their own planes") {
-    // A quad bent along its diagonal from (8,0) to (0,8): the first half lies at z 100, the second falls to z 300.
+    // A quad bent along its diagonal from (8,0) to (0,8): the first half lies at z 100, the second falls to z
+    // 300.
     tests::Stage stage;
     stage.polygon({{0, 0, 100}, {8, 0, 100}, {0, 8, 100}, {8, 8, 300}});
     stage.quad(7, 7, 8, 8, 200);  // the quad's 1/z at (7,7) is 1/100 - 6/8 * (1/100 - 1/300) = 1/200: equal
@@ -133,7 +137,9 @@ TEST_SUITE("inspect") {
     CHECK(report.wrong_pixels() == 8);
     CHECK(report.fragments == 16 + 8);
     REQUIRE(report.lint.size() == 1);
-    CHECK(report.lint[0] == inspect::LintItem{"not-seen", "draw 1", "1 polygon drew nothing: every pixel transparent, masked or behind"});
+    CHECK(report.lint[0] ==
+          inspect::LintItem{"not-seen", "draw 1",
+                            "1 polygon drew nothing: every pixel transparent, masked or behind"});
   }
 
   TEST_CASE("a texel's bit 15 alone decides whether it is a layer") {
@@ -141,12 +147,14 @@ TEST_SUITE("inspect") {
     stage.gpu().vram().at(640, 0) = 0x8001;
     stage.gpu().vram().at(641, 0) = 0x0001;
     stage.quad(0, 0, 4, 4, 200);
-    stage.quad(0, 0, 4, 2, 100, {.semi_transparent = true, .texel = ot::Uv{0, 0}});  // a pane: the wall stays owner
+    stage.quad(0, 0, 4, 2, 100,
+               {.semi_transparent = true, .texel = ot::Uv{0, 0}});  // a pane: the wall stays owner
     stage.quad(0, 2, 4, 4, 100, {.semi_transparent = true, .texel = ot::Uv{1, 0}});  // a wall
     stage.quad(0, 0, 4, 4, 150, {.semi_transparent = true});
     const auto report = stage.report();
     CHECK(report.wrong_pixels() == 16);
-    CHECK(report.count(inspect::Cause::blend_order) == 16);  // above: over the nearer pane; below: behind the wall
+    CHECK(report.count(inspect::Cause::blend_order) ==
+          16);  // above: over the nearer pane; below: behind the wall
   }
 
   TEST_CASE("primitives without depth are layers, never owners or winners") {
@@ -169,7 +177,8 @@ TEST_SUITE("inspect") {
   }
 
   TEST_CASE("a triangle that wraps below the bottom of VRAM is judged at its own sample points") {
-    // Drawing area rows 512..519 are stored at rows 0..7. z grows downwards from 100 at row 512 to 300 at row 520.
+    // Drawing area rows 512..519 are stored at rows 0..7. z grows downwards from 100 at row 512 to 300 at row
+    // 520.
     tests::Stage stage;
     stage.gpu().gp0(0xe3000000 | 512 << 10);
     stage.gpu().gp0(0xe4000000 | 519 << 10 | 7);
