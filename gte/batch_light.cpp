@@ -79,12 +79,12 @@ bool far_colour_fits(const Registers& r) {
                      [](S27_4 c) { return std::abs(std::int64_t{c.raw}) < 0x70000; });
 }
 
-struct Setup {
+struct LightSetup {
   Rows llm, lcm;
   V far[3];
   V lowest, code, rgbc, ir0;
 
-  Setup(const Registers& r, Command c)
+  LightSetup(const Registers& r, Command c)
       : llm(r.llm, {}),
         lcm(r.lcm, raw(r.bk)),
         lowest(all(c.lowest_ir())),
@@ -135,7 +135,7 @@ HWY_INLINE Vector widened(V rgbc) {
 
 /// Toward the far colour by IR0, whose upper half is zero here so that multiply_pairs sees one product.
 template <bool sf, class Limits>
-HWY_INLINE Vector cued(const Setup& s, const Vector& in, V ir0, Limits& lost) {
+HWY_INLINE Vector cued(const LightSetup& s, const Vector& in, V ir0, Limits& lost) {
   Vector out;
   for (std::size_t i = 0; i < 3; ++i) {
     const V ir = lost.limit_ir(i, shifted<sf>(hn::Sub(s.far[i], in.of[i])), all(-0x8000));
@@ -146,7 +146,7 @@ HWY_INLINE Vector cued(const Setup& s, const Vector& in, V ir0, Limits& lost) {
 
 /// MACi and IRi of the last sum, and the colour pushed.
 template <bool sf, class Limits>
-HWY_INLINE V pushed(const Setup& s, const Vector& sum, V code, Limits& lost) {
+HWY_INLINE V pushed(const LightSetup& s, const Vector& sum, V code, Limits& lost) {
   V colour[3];
   for (std::size_t i = 0; i < 3; ++i) {
     const V mac = shifted<sf>(sum.of[i]);
@@ -167,7 +167,7 @@ HWY_INLINE V pushed_mac(const Vector& mac, V code, Limits& lost) {
 }
 
 template <Light kind, bool sf, class Limits>
-HWY_INLINE V lit(const Setup& s, const Vertices& normal, V rgbc, V ir0, Limits& lost) {
+HWY_INLINE V lit(const LightSetup& s, const Vertices& normal, V rgbc, V ir0, Limits& lost) {
   const Vector direction = transform<sf>(s.llm, normal, s.lowest, lost);
   const Vertices x = as_vertices(direction);
   if constexpr (kind == Light::ncs) {
@@ -212,8 +212,8 @@ struct Lights {
 };
 
 template <Light kind, bool sf, bool want_flag>
-HWY_INLINE void light_to(const Setup& s, const Vertex* normals, const Colour* rgbc, const std::int16_t* ir0,
-                         const ColourOut& out, std::size_t at) {
+HWY_INLINE void light_to(const LightSetup& s, const Vertex* normals, const Colour* rgbc,
+                         const std::int16_t* ir0, const ColourOut& out, std::size_t at) {
   Lost<want_flag> lost;
   const V colour = lit<kind, sf>(s, load_vertices(normals), rgbc != nullptr ? load(rgbc) : s.rgbc,
                                  ir0 != nullptr ? load_ir0(ir0) : s.ir0, lost);
@@ -222,7 +222,7 @@ HWY_INLINE void light_to(const Setup& s, const Vertex* normals, const Colour* rg
 }
 
 template <Light kind, bool sf, bool want_flag>
-void light_all(const Setup& s, const Lights& in, const ColourOut& out) {
+void light_all(const LightSetup& s, const Lights& in, const ColourOut& out) {
   const std::size_t lanes = hn::Lanes(d);
   const auto from = [](const auto& span, std::size_t at) {
     return span.empty() ? nullptr : span.data() + at;
@@ -245,7 +245,7 @@ void light_all(const Setup& s, const Lights& in, const ColourOut& out) {
 }
 
 template <bool sf, bool want_flag>
-void light_kind(const Setup& s, Light kind, const Lights& in, const ColourOut& out) {
+void light_kind(const LightSetup& s, Light kind, const Lights& in, const ColourOut& out) {
   switch (kind) {
     case Light::ncs:
       return light_all<Light::ncs, sf, want_flag>(s, in, out);
@@ -261,15 +261,15 @@ void light(const Registers& r, Light kind, std::span<const Vertex> normals, std:
   const bool sane =
       rows_fit(r.llm, {}) && rows_fit(r.lcm, raw(r.bk)) && (kind != Light::ncds || far_colour_fits(r));
   if (!sane) return plain_light_doors.light(r, kind, normals, rgbc, ir0, out, c);
-  const Setup s(r, c);
-  using Run = void (*)(const Setup&, Light, const Lights&, const ColourOut&);
+  const LightSetup s(r, c);
+  using Run = void (*)(const LightSetup&, Light, const Lights&, const ColourOut&);
   static constexpr Run runs[2][2] = {{light_kind<false, false>, light_kind<false, true>},
                                      {light_kind<true, false>, light_kind<true, true>}};
   runs[c.sf() ? 1 : 0][out.flag != nullptr ? 1 : 0](s, kind, {normals, rgbc, ir0}, out);
 }
 
 template <bool sf, bool want_flag>
-HWY_INLINE void cue_to(const Setup& s, const Colour* rgbc, const std::int16_t* ir0, const ColourOut& out,
+HWY_INLINE void cue_to(const LightSetup& s, const Colour* rgbc, const std::int16_t* ir0, const ColourOut& out,
                        std::size_t at) {
   Lost<want_flag> lost;
   const V in = load(rgbc);
@@ -280,7 +280,7 @@ HWY_INLINE void cue_to(const Setup& s, const Colour* rgbc, const std::int16_t* i
 }
 
 template <bool sf, bool want_flag>
-void cue_all(const Setup& s, std::span<const Colour> rgbc, std::span<const std::int16_t> ir0,
+void cue_all(const LightSetup& s, std::span<const Colour> rgbc, std::span<const std::int16_t> ir0,
              const ColourOut& out) {
   const std::size_t lanes = hn::Lanes(d);
   std::size_t at = 0;
@@ -298,7 +298,7 @@ void cue_all(const Setup& s, std::span<const Colour> rgbc, std::span<const std::
   if (want_flag) copy_wanted(out.flag + at, flag, count);
 }
 
-using CueRun = void (*)(const Setup&, std::span<const Colour>, std::span<const std::int16_t>,
+using CueRun = void (*)(const LightSetup&, std::span<const Colour>, std::span<const std::int16_t>,
                         const ColourOut&);
 
 void cue(const Registers& r, std::span<const Colour> rgbc, std::span<const std::int16_t> ir0,
@@ -306,13 +306,13 @@ void cue(const Registers& r, std::span<const Colour> rgbc, std::span<const std::
   if (!far_colour_fits(r)) return plain_light_doors.cue(r, rgbc, ir0, out, c);
   static constexpr CueRun runs[2][2] = {{cue_all<false, false>, cue_all<false, true>},
                                         {cue_all<true, false>, cue_all<true, true>}};
-  runs[c.sf() ? 1 : 0][out.flag != nullptr ? 1 : 0](Setup(r, c), rgbc, ir0, out);
+  runs[c.sf() ? 1 : 0][out.flag != nullptr ? 1 : 0](LightSetup(r, c), rgbc, ir0, out);
 }
 
 /// One vector of triples, three of colours; the FLAG of a triple gathers all three.
 template <bool sf, bool want_flag>
-HWY_INLINE void triples_to(const Setup& s, const Colour* rgb, const std::int16_t* ir0, const ColourOut& out,
-                           std::size_t at) {
+HWY_INLINE void triples_to(const LightSetup& s, const Colour* rgb, const std::int16_t* ir0,
+                           const ColourOut& out, std::size_t at) {
   Lost<want_flag> lost;
   const V slope = ir0 != nullptr ? load_ir0(ir0) : s.ir0;
   V in[3], colour[3];
@@ -327,7 +327,7 @@ HWY_INLINE void triples_to(const Setup& s, const Colour* rgb, const std::int16_t
 }
 
 template <bool sf, bool want_flag>
-void triples_all(const Setup& s, std::span<const Colour> rgb, std::span<const std::int16_t> ir0,
+void triples_all(const LightSetup& s, std::span<const Colour> rgb, std::span<const std::int16_t> ir0,
                  const ColourOut& out) {
   const std::size_t lanes = hn::Lanes(d), total = rgb.size() / 3;
   std::size_t at = 0;
@@ -351,7 +351,7 @@ void cue_triples(const Registers& r, std::span<const Colour> rgb, std::span<cons
   if (!far_colour_fits(r)) return plain_light_doors.cue_triples(r, rgb, ir0, out, c);
   static constexpr CueRun runs[2][2] = {{triples_all<false, false>, triples_all<false, true>},
                                         {triples_all<true, false>, triples_all<true, true>}};
-  runs[c.sf() ? 1 : 0][out.flag != nullptr ? 1 : 0](Setup(r, c), rgb, ir0, out);
+  runs[c.sf() ? 1 : 0][out.flag != nullptr ? 1 : 0](LightSetup(r, c), rgb, ir0, out);
 }
 
 /// MVMVA: the rows that make the result, and those whose result the far colour's fault throws away but for

@@ -26,9 +26,11 @@ struct Command {
 
 Action add_gte_check(CLI::App& sub);
 Action add_list(CLI::App& sub);
+Action add_record(CLI::App& sub);
 Action add_render(CLI::App& sub);
 Action add_replay(CLI::App& sub);
 Action add_run(CLI::App& sub);
+Action add_walk(CLI::App& sub);
 
 /// In the order in which `otter --help` lists them.
 inline constexpr std::array commands{
@@ -48,6 +50,12 @@ inline constexpr std::array commands{
             "  otter replay frame.psxgpu --vram vram.png\n"
             "  otter replay frame.psxgpu.zst --list --until 20\n"
             "  otter replay scene.psxgpu --visibility zbuffer --depth 16 -o frame.png\n"},
+    Command{"record", "write a scene as a GPU dump", add_record,
+            "  otter record crates -o crates.psxgpu\n"
+            "  otter record cyclic -o cyclic.psxgpu.zst --frames 60 --annotate\n"},
+    Command{"walk", "check and draw a list in a saved RAM image", add_walk,
+            "  otter walk ram.bin --head 8012FFFC --table 8012F000,1024\n"
+            "  otter walk ram.bin --head 80123000 --vram-in vram.bin --vram vram.png\n"},
     Command{"gte-check", "run register vectors through the GTE", add_gte_check,
             "  otter gte-check vectors.csv\n"
             "  otter gte-check vectors.csv --all\n"},

@@ -204,6 +204,11 @@ void add_batch_rows(std::vector<Row>& rows, const Workload& w, const char* targe
              .fraction_x = o.fx.data(),
              .fraction_y = o.fy.data()});
   });
+  // A translation that leaves 32 bits: sums in 64-bit lanes, every x limited, no block clean.
+  gte::Registers beyond = w.setup;
+  beyond.tr[0] = 600'000;
+  add("RTPS, beyond 32 bits, FLAG", "vertices", 0,
+      [=] { project(beyond, some, {.sxy = o.sxy.data(), .sz = o.sz.data(), .flag = o.flag.data()}); });
   add("RTPT+NCLIP+AVSZ3", "triangles", floor(155, 260), [=, &w] {
     project_triangles(w.setup, all, {.sxy = o.sxy.data(), .mac0 = o.mac0.data(), .otz = o.otz.data()});
   });

@@ -1,5 +1,5 @@
-// Any words on both ports: bit 0 of the first byte asks for the z-buffer, bit 1 for a trace, bit 2 for its history; then every
-// word is preceded by a byte that chooses GP0, GP1 or a read.
+// Any words on both ports: bit 0 of the first byte asks for the z-buffer, bit 1 for a trace, bit 2 for its
+// history; then every word is preceded by a byte that chooses GP0, GP1 or a read.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,10 +1,10 @@
 // Any words as options: "name value" lines, set one after the other, then checked and printed.
 
+#include "scene/knobs.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
-
-#include "scene/knobs.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::string_view rest(reinterpret_cast<const char*>(data), size);
@@ -19,7 +19,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)scene::check_knobs(knobs);
   scene::Knobs again;
   for (const auto& knob : scene::knob_table()) {
-    if (!knob.set(again, knob.get(knobs))) __builtin_trap();  // what a knob says of itself, it must understand
+    if (!knob.set(again, knob.get(knobs)))
+      __builtin_trap();  // what a knob says of itself, it must understand
   }
   if (!(again == knobs)) __builtin_trap();
   return 0;

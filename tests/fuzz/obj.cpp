@@ -1,11 +1,12 @@
 // Any bytes as an OBJ; what stands behind a line "#MTL" is read as its material library too.
 
+#include "scene/obj.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
 #include "scene/image.h"
-#include "scene/obj.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);

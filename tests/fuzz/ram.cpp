@@ -1,5 +1,5 @@
-// Any main RAM walked as a list: four bytes say where it begins, the rest is copied to the start of RAM as often as it
-// fits, so that links find something wherever they lead.
+// Any main RAM walked as a list: four bytes say where it begins, the rest is copied to the start of RAM as
+// often as it fits, so that links find something wherever they lead.
 
 #include <algorithm>
 #include <cstddef>
@@ -19,10 +19,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static gpu::Gpu gpu;
   gpu.gp1(0);
   std::uint32_t sent = 0;
-  const auto result = ot::walk(ram, first & 0xffffff, [&](std::uint32_t, std::span<const std::uint32_t> payload) {
-    sent += static_cast<std::uint32_t>(payload.size());
-    if (sent < 10'000) gpu.gp0(payload);
-  });
+  const auto result =
+      ot::walk(ram, first & 0xffffff, [&](std::uint32_t, std::span<const std::uint32_t> payload) {
+        sent += static_cast<std::uint32_t>(payload.size());
+        if (sent < 10'000) gpu.gp0(payload);
+      });
   if (!result) (void)result.message();
   return 0;
 }

@@ -17,7 +17,9 @@ using tests::Random;
 
 constexpr int rounds = 20'000;
 
-gte::Registers any(Random& random) { return tests::registers(random, static_cast<Kind>(random.below(4))); }
+gte::Registers any(Random& random) {
+  return tests::registers(random, static_cast<Kind>(random.below(static_cast<std::uint32_t>(Kind::count))));
+}
 
 /// The division as the reference has it, step by step and in 64 bits, sharing nothing with the one under
 /// test.
