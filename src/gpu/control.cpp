@@ -139,7 +139,7 @@ std::uint32_t Gpu::read() {
   for (int half = 0; half < 32 && download_.is_active(); half += 16) {
     const std::uint32_t pixel = vram_.at(download_.x + download_.column, download_.y + download_.row);
     word |= pixel << half;
-    download_.advance();
+    download_.advance(1);
   }
   return word;
 }

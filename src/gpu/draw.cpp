@@ -1,5 +1,8 @@
 // One function per kind of drawing command: words to a decoded primitive, and on to the rasterizer.
 
+#include <algorithm>
+#include <cstring>
+
 #include "gpu/gpu.h"
 #include "gpu/raster.h"
 #include "ot/gp0.h"
@@ -35,28 +38,32 @@ void put_corner(Vertex& vertex, std::uint32_t word) {
 
 void Gpu::polygon(const std::uint32_t* words) {
   Primitive& p = current_;
+  p.kind = Kind::polygon;
   p.command = words[0];
   p.vertex_count = static_cast<std::uint8_t>(gp0::polygon::vertices(words[0]));
-  p.kind = Kind::polygon;
-  const bool is_gouraud = p.is_gouraud(), is_textured = p.is_textured();
-  const std::uint32_t* at = words + 1;
+  // Per vertex: [colour,] position [, texcoord]; vertex 0 has its colour in the command word.
+  const std::size_t coloured = p.is_gouraud() ? 1 : 0, textured = p.is_textured() ? 1 : 0;
+  const std::size_t stride = 1 + coloured + textured;
   for (std::size_t v = 0; v < p.vertex_count; ++v) {
-    Vertex& vertex = p.vertices[v];
-    put_colour(vertex, is_gouraud && v != 0 ? *at++ : words[0]);
-    put_position(vertex, *at++, p.state);
-    if (!is_textured) continue;
-    if (v == 0) p.clut = static_cast<std::uint16_t>(gp0::texcoord::Clut::get(*at));
-    if (v == 1) use_texture_page(gp0::texcoord::Texpage::get(*at));
-    put_texcoord(vertex, *at++);
+    const std::uint32_t* const of_vertex = words + 1 + v * stride;  // the position
+    put_position(p.vertices[v], of_vertex[0], p.state);
+    put_colour(p.vertices[v], coloured != 0 ? of_vertex[-1] : words[0]);
+    if (textured != 0) put_texcoord(p.vertices[v], of_vertex[1]);
   }
-  // A flat polygon reads vertex 0's colour alone; the second half of a gouraud quad starts at vertex 1.
-  if (is_textured) clut_.use(vram_, p.clut, p.state.texel_format());
+  if (textured != 0) {
+    p.clut = static_cast<std::uint16_t>(gp0::texcoord::Clut::get(words[2]));
+    use_texture_page(gp0::texcoord::Texpage::get(words[2 + stride]));
+    clut_.use(vram_, p.clut, p.state.texel_format());
+  }
   take_depth();
   begin_command();
   note(Kind::polygon);
   if (canvas_ != nullptr && draw_on_canvas()) return;
-  draw_polygon({vram_, clut_.entries().data(), trace_, current_draw(), limits_ ? &*limits_ : nullptr}, p,
-               counters_);
+  if (depth_) {
+    draw_with_depth();
+  } else {
+    draw_polygon(surface(), p, Pass::console);
+  }
 }
 
 /// The page halfword of a textured polygon stays in force. [ps1-tests gp0-e1]
@@ -90,7 +97,7 @@ void Gpu::rectangle(const std::uint32_t* words) {
   begin_command();
   note(Kind::rectangle);
   if (canvas_ != nullptr && draw_on_canvas()) return;
-  draw_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+  draw_rectangle(surface(), p);
 }
 
 void Gpu::line(const std::uint32_t* words) {
@@ -139,11 +146,12 @@ const std::uint32_t* Gpu::continue_polyline(const std::uint32_t* at, const std::
 void Gpu::line_segment() {
   note(Kind::line);
   if (canvas_ != nullptr && draw_on_canvas()) return;
-  draw_line({vram_, clut_.entries().data(), trace_, current_draw()}, current_, counters_);
+  draw_line(surface(), current_);
 }
 
 /// Position and width are cut to multiples of 16; a size that is a multiple of 1024 or 512 is empty.
 void Gpu::fill(const std::uint32_t* words) {
+  draw_queue();
   Primitive& p = current_;
   p.kind = Kind::fill;
   p.command = words[0];
@@ -154,11 +162,12 @@ void Gpu::fill(const std::uint32_t* words) {
   p.height = static_cast<int>(gp0::area::Height::get(words[2]) & 0x1ff);
   begin_command();
   note(Kind::fill);
-  fill_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+  fill_rectangle(surface(), p);
   if (canvas_ != nullptr) transfer_to_canvas();
 }
 
 void Gpu::copy(const std::uint32_t* words) {
+  draw_queue();
   Primitive& p = current_;
   p.kind = Kind::copy;
   p.command = words[0];
@@ -169,11 +178,12 @@ void Gpu::copy(const std::uint32_t* words) {
   p.height = static_cast<int>(gp0::transfer::height(words[3]));
   begin_command();
   note(Kind::copy);
-  copy_rectangle({vram_, clut_.entries().data(), trace_, current_draw()}, p);
+  copy_rectangle(surface(), p);
   if (canvas_ != nullptr) transfer_to_canvas();
 }
 
 void Gpu::begin_upload(const std::uint32_t* words) {
+  draw_queue();
   Primitive& p = current_;
   p.kind = Kind::upload;
   p.command = words[0];
@@ -199,18 +209,22 @@ void Gpu::begin_download(const std::uint32_t* words) {
                .height = static_cast<int>(gp0::transfer::height(words[2]))};
 }
 
+/// The words are a stream of halfwords; only the last of an odd number is not a pixel.
 const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* end) {
-  const Surface surface{vram_, clut_.entries().data(), trace_, upload_.draw};
-  while (at != end && upload_.is_active()) {
-    const std::uint32_t word = *at++;
-    for (int half = 0; half < 32 && upload_.is_active(); half += 16) {
-      store_transferred(surface, current_.state, upload_.x + upload_.column, upload_.y + upload_.row,
-                        static_cast<std::uint16_t>(word >> half));
-      upload_.advance();
-    }
+  Surface target = surface();
+  target.draw = upload_.draw;
+  const std::int64_t pixels = std::min<std::int64_t>(upload_.pixels_left(), 2 * (end - at));
+  const auto* bytes = reinterpret_cast<const unsigned char*>(at);
+  PixelRow row;
+  for (std::int64_t done = 0; done < pixels;) {
+    const int count = static_cast<int>(std::min<std::int64_t>(pixels - done, upload_.width - upload_.column));
+    std::memcpy(row.data(), bytes + 2 * done, 2 * static_cast<std::size_t>(count));
+    store_row(target, current_.state, upload_.x + upload_.column, upload_.y + upload_.row, row, count);
+    upload_.advance(count);
+    done += count;
   }
   if (canvas_ != nullptr && !upload_.is_active()) transfer_to_canvas();
-  return at;
+  return at + (pixels + 1) / 2;
 }
 
 /// Hands the annotation over to the polygon that follows it.
@@ -241,6 +255,16 @@ void Gpu::note(Kind kind) {
   if (trace_ == nullptr) return;
   current_.bucket = trace_->bucket;
   trace_->draws.push_back(current_);
+}
+
+Surface Gpu::surface() {
+  return {.vram = vram_,
+          .clut = clut_.entries(),
+          .counters = counters_,
+          .depth = depth_.get(),
+          .trace = trace_,
+          .draw = current_draw(),
+          .limits = limits_ ? &*limits_ : nullptr};
 }
 
 /// The number under which the trace knows the primitive last noted.

@@ -1,21 +1,63 @@
 // What a z-buffered frame adds: the depth plane, and a second pass for what lets light through.
 
+#include "gpu/canvas/canvas.h"
+#include "gpu/depth_queue.h"
 #include "gpu/gpu.h"
+#include "gpu/raster.h"
 
 namespace gpu {
 
+Gpu::Gpu() { gp1(0); }
+Gpu::~Gpu() = default;
+Gpu::Gpu(Gpu&&) noexcept = default;
+Gpu& Gpu::operator=(Gpu&&) noexcept = default;
+
 void Gpu::set_depth(const std::optional<DepthOptions>& options) {
   depth_ = options ? std::make_unique<DepthPlane>(*options) : nullptr;
+  queue_ = nullptr;
 }
 
 void Gpu::begin_frame() {
   next_command_ = 0;
   frame_ = {};
   if (depth_) depth_->clear();
+  if (queue_) queue_->clear();
 }
 
-FrameEnd Gpu::end_frame() { return frame_; }
+FrameEnd Gpu::end_frame() {
+  draw_queue();
+  return frame_;
+}
 
-std::uint64_t Gpu::queue_bytes() const { return 0; }
+/// Opaque fragments now, the others when everything opaque is there.
+void Gpu::draw_with_depth() {
+  const Primitive& p = current_;
+  if (!p.has_depth) {
+    if (frame_.polygons_without_depth++ == 0) frame_.first_without_depth = p.command_number;
+    draw_polygon(surface(), p, Pass::console);
+    return;
+  }
+  if (!p.is_semi_transparent() || p.is_textured()) draw_polygon(surface(), p, Pass::opaque);
+  if (!p.is_semi_transparent()) return;
+  if (!queue_) queue_ = std::make_unique<DepthQueue>();
+  queue_->add(p, clut_, current_draw());
+  ++frame_.queued;
+}
+
+/// Also before a fill, a copy or an upload: they would change what the queued polygons lie on, or their
+/// texture.
+void Gpu::draw_queue() {
+  if (!queue_ || queue_->is_empty()) return;
+  queue_->sort();
+  for (const DepthQueue::Entry& entry : queue_->entries()) {
+    Surface target = surface();
+    target.clut = queue_->palette(entry);
+    target.draw = entry.draw;
+    draw_polygon(target, entry.primitive, Pass::semi_transparent);
+  }
+  queue_->clear();
+}
+
+std::uint64_t Gpu::queue_bytes() const { return queue_ ? queue_->bytes() : 0; }
 
 }  // namespace gpu

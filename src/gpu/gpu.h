@@ -37,6 +37,9 @@ struct FrameEnd {
   std::uint32_t queued = 0;                  ///< semi-transparent polygons drawn in the second pass
 };
 
+class DepthQueue;
+struct Surface;
+
 class Gpu {
  public:
   /// As after GP1(00h), VRAM all zero.
@@ -115,7 +118,7 @@ class Gpu {
   };
 
   // port.cpp: the GP0 state machine
-  const std::uint32_t* consume(const std::uint32_t* at, const std::uint32_t* end);
+  const std::uint32_t* run_commands(const std::uint32_t* at, const std::uint32_t* end);
   const std::uint32_t* gather(const std::uint32_t* at, const std::uint32_t* end);
   const std::uint32_t* continue_polyline(const std::uint32_t* at, const std::uint32_t* end);
   void execute(const std::uint32_t* words);
@@ -137,10 +140,15 @@ class Gpu {
   void take_depth();
   void begin_command();
   void note(Kind kind);
+  [[nodiscard]] Surface surface();
   [[nodiscard]] std::uint32_t current_draw() const;
   // canvas/port.cpp
   [[nodiscard]] bool draw_on_canvas();
   void transfer_to_canvas();
+
+  // frame.cpp
+  void draw_with_depth();
+  void draw_queue();
 
   // control.cpp
   void latch_register(std::uint32_t number);
@@ -167,6 +175,7 @@ class Gpu {
 
   std::optional<std::uint32_t> default_depth_;
   std::unique_ptr<DepthPlane> depth_;
+  std::unique_ptr<DepthQueue> queue_;  // only when something is semi-transparent
   FrameEnd frame_;
   Trace* trace_ = nullptr;
   std::unique_ptr<canvas::Canvas> canvas_;

@@ -11,35 +11,58 @@ namespace gpu {
 
 namespace gp0 = ot::gp0;
 
-Gpu::Gpu() { gp1(0); }
-Gpu::~Gpu() = default;
-Gpu::Gpu(Gpu&&) noexcept = default;
-Gpu& Gpu::operator=(Gpu&&) noexcept = default;
+namespace {
 
+/// What ot/gp0.h says of each opcode, looked up instead of decided.
+struct Opening {
+  gp0::Command command;
+  std::uint8_t words;
+};
+
+constexpr auto openings = [] {
+  std::array<Opening, 256> table{};
+  for (std::uint32_t opcode = 0; opcode < 256; ++opcode) {
+    const std::uint32_t word = gp0::Opcode::put(opcode);
+    table[opcode] = {gp0::command_of(word), static_cast<std::uint8_t>(gp0::command_words(word))};
+  }
+  return table;
+}();
+
+}  // namespace
+
+/// What is open comes before what begins: pixels of an upload, vertices of a polyline, the rest of a command.
 void Gpu::gp0(std::span<const std::uint32_t> words) {
   counters_.words += words.size();
   const std::uint32_t* at = words.data();
   const std::uint32_t* const end = at + words.size();
-  while (at != end) at = consume(at, end);
+  while (at != end) {
+    if (upload_.is_active()) {
+      at = upload(at, end);
+    } else if (polyline_open_) {
+      at = continue_polyline(at, end);
+    } else if (gathered_count_ != 0) {
+      at = gather(at, end);
+    } else {
+      at = run_commands(at, end);
+    }
+  }
 }
 
-/// Takes at least one word. What is open comes before what begins: pixels of an upload, vertices of a
-/// polyline, the rest of a command.
-const std::uint32_t* Gpu::consume(const std::uint32_t* at, const std::uint32_t* end) {
-  if (gathered_count_ == 0 && !polyline_open_ && !upload_.is_active()) {
-    const std::size_t needed = gp0::command_words(*at);
-    if (static_cast<std::size_t>(end - at) < needed) return gather(at, end);
+/// Whole commands, up to one that leaves something open.
+const std::uint32_t* Gpu::run_commands(const std::uint32_t* at, const std::uint32_t* end) {
+  while (at != end) {
+    const Opening opening = openings[gp0::Opcode::get(*at)];
+    if (end - at < opening.words) return gather(at, end);
     execute(at);
-    return at + needed;
+    at += opening.words;
+    if (opening.command == gp0::Command::upload || opening.command == gp0::Command::polyline) break;
   }
-  if (upload_.is_active()) return upload(at, end);
-  if (polyline_open_) return continue_polyline(at, end);
-  return gather(at, end);
+  return at;
 }
 
 const std::uint32_t* Gpu::gather(const std::uint32_t* at, const std::uint32_t* end) {
   if (gathered_count_ == 0) gathered_[gathered_count_++] = *at++;
-  const std::size_t needed = gp0::command_words(gathered_[0]);
+  const std::size_t needed = openings[gp0::Opcode::get(gathered_[0])].words;
   const auto taken = std::min(needed - gathered_count_, static_cast<std::size_t>(end - at));
   std::copy_n(at, taken, gathered_.begin() + static_cast<std::ptrdiff_t>(gathered_count_));
   gathered_count_ += taken;
@@ -51,7 +74,7 @@ const std::uint32_t* Gpu::gather(const std::uint32_t* at, const std::uint32_t* e
 }
 
 void Gpu::execute(const std::uint32_t* words) {
-  switch (gp0::command_of(words[0])) {
+  switch (openings[gp0::Opcode::get(words[0])].command) {
     case gp0::Command::nop:
       break;
     case gp0::Command::clear_cache:

@@ -1,35 +1,51 @@
 #pragma once
 // The border between decoding and drawing: a decoded primitive goes in, pixels come out.
 
+#include <array>
 #include <cstdint>
 
 #include "gpu/counters.h"
 #include "gpu/coverage.h"
+#include "gpu/depth.h"
 #include "gpu/primitive.h"
 #include "gpu/trace.h"
 #include "gpu/vram.h"
 
 namespace gpu {
 
+/// Which fragments of a polygon with depth are drawn. Opacity is a texel's matter: one polygon can have both
+/// kinds.
+enum class Pass : std::uint8_t {
+  console,           ///< all, untested: there is no z-buffer, or the primitive has no depth
+  opaque,            ///< those that let no light through; tested and stored
+  semi_transparent,  ///< the others; tested, not stored
+};
+
 /// What is drawn on. Pointers are borrowed for the call.
 struct Surface {
   Vram& vram;
-  const std::uint16_t* clut;  ///< 256 entries; read by textures with a palette
-  Trace* trace = nullptr;     ///< notes every written pixel under `draw`
+  const std::uint16_t* clut;  ///< ClutCache::entries; read by textures with a palette
+  Counters& counters;
+  DepthPlane* depth = nullptr;
+  Trace* trace = nullptr;  ///< notes every written pixel under `draw`
   std::uint32_t draw = 0;
   const Limits* limits = nullptr;  ///< polygons only; nullptr: none
   std::uint8_t half = 0;           ///< 1 while the second triangle of a quad is drawn
 };
 
-void draw_polygon(const Surface& surface, const Primitive& primitive, Counters& counters);
+void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass);
 void draw_rectangle(const Surface& surface, const Primitive& primitive);
-void draw_line(const Surface& surface, const Primitive& primitive, Counters& counters);
+void draw_line(const Surface& surface, const Primitive& primitive);
 
-/// Fill, copy: whole rectangles of VRAM that wrap at both edges.
+/// Whole rectangles of VRAM that wrap at both edges; the drawing area does not matter.
 void fill_rectangle(const Surface& surface, const Primitive& primitive);
 void copy_rectangle(const Surface& surface, const Primitive& primitive);
 
-/// One pixel of an upload: mask bits apply, the drawing area does not.
-void store_transferred(const Surface& surface, const DrawState& state, int x, int y, std::uint16_t pixel);
+/// Up to a row of pixels on their way into VRAM, and room for a vector that begins on the last of them.
+using PixelRow = std::array<std::uint16_t, Vram::width + Vram::padding>;
+
+/// `count` pixels from x, y to the right, both wrapping; mask bits apply, the drawing area does not.
+void store_row(const Surface& surface, const DrawState& state, int x, int y, const PixelRow& pixels,
+               int count);
 
 }  // namespace gpu

@@ -2,6 +2,7 @@
 // A rectangle of VRAM that is being filled, copied, sent or received, and the cache of one palette.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "gpu/state.h"
@@ -17,11 +18,12 @@ struct Transfer {
 
   [[nodiscard]] bool is_active() const { return row < height; }
   [[nodiscard]] std::int64_t pixels_left() const { return std::int64_t{height - row} * width - column; }
-  void advance() {
-    if (++column == width) {
-      column = 0;
-      ++row;
-    }
+  /// By pixels of one row.
+  void advance(int count) {
+    column += count;
+    if (column < width) return;
+    column = 0;
+    ++row;
   }
 };
 
@@ -29,16 +31,22 @@ struct Transfer {
 /// VRAM changes under it. [ps1-tests clut-cache]
 class ClutCache {
  public:
-  static constexpr std::uint32_t no_tag = 0xffffffff;
+  /// 256 entries, and two halfwords that a vector may read and nobody uses.
+  static constexpr std::size_t size = 256 + 2;
 
   void invalidate() { tag_ = no_tag; }
   /// Before a textured primitive. 15-bit textures neither load nor invalidate; a palette loaded for 8-bit
   /// texels serves 4-bit ones, the other way round it is loaded again.
   void use(const Vram& vram, std::uint16_t clut, TexelFormat format);
-  [[nodiscard]] const std::array<std::uint16_t, 256>& entries() const { return entries_; }
+  [[nodiscard]] const std::uint16_t* entries() const { return entries_.data(); }
+  /// Counts loads: two primitives with the same number saw the same palette.
+  [[nodiscard]] std::uint32_t loads() const { return loads_; }
 
  private:
-  alignas(64) std::array<std::uint16_t, 256> entries_{};
+  static constexpr std::uint32_t no_tag = 0xffffffff;
+
+  alignas(64) std::array<std::uint16_t, size> entries_{};
+  std::uint32_t loads_ = 0;
   std::uint32_t tag_ = no_tag;  // CLUT halfword without bit 15
   TexelFormat loaded_ = TexelFormat::clut4;
 };

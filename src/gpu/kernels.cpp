@@ -1,0 +1,405 @@
+// The only place where the pipeline is instantiated: every Mode, once per dispatch target.
+
+#include "gpu/kernels.h"
+
+#include <type_traits>
+#include <utility>
+
+#if defined(__x86_64__)
+#define HWY_BASELINE_TARGETS \
+  HWY_SCALAR                            // so that there is a plain table to compare with, and to fall back on
+#define HWY_DISABLED_TARGETS HWY_SSSE3  // no processor of interest stops there
+#endif
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "gpu/kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "gpu/stages-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace gpu::HWY_NAMESPACE {
+
+/// Nobody watches: no member, no code.
+struct Unwatched {
+  static constexpr bool is_on = false;
+};
+static_assert(std::is_empty_v<Unwatched>);
+
+struct Watched {
+  static constexpr bool is_on = true;
+  const Watch& watch;
+};
+
+/// Stores the lanes of `wanted`. Neighbours of the row may be rewritten as they were.
+template <class D, class M>
+STAGE void store(D d, hn::Vec<D> value, M wanted, hn::TFromD<D>* to) {
+#if HWY_TARGET <= HWY_AVX3 || HWY_TARGET == HWY_SCALAR
+  hn::BlendedStore(value, wanted, d, to);
+#else
+  hn::StoreU(hn::IfThenElse(wanted, value, hn::LoadU(d, to)), d, to);
+#endif
+}
+
+/// The same lanes, for vectors of half the width and back.
+template <class D, class M>
+STAGE auto to_mask16([[maybe_unused]] D d, M mask) {
+#if HWY_TARGET <= HWY_AVX3
+  return hn::Mask<Half16<D>>{mask.raw};
+#else
+  const hn::RebindToUnsigned<D> du;
+  return hn::MaskFromVec(narrow(d, hn::BitCast(d, hn::VecFromMask(du, mask))));
+#endif
+}
+
+template <class D, class M>
+STAGE auto to_mask32(D d, M mask) {
+#if HWY_TARGET <= HWY_AVX3
+  return hn::Mask<D>{mask.raw};
+#else
+  const Half16<D> d16;
+  return hn::MaskFromVec(
+      hn::PromoteTo(d, hn::BitCast(hn::RebindToSigned<Half16<D>>(), hn::VecFromMask(d16, mask))));
+#endif
+}
+
+/// What all spans of a job have in common.
+template <class D>
+struct Constants {
+  Palette16<D> palette;
+  Rgb<D> colour{};  // of the lanes, relative to the first
+  V<D> u{}, v{};
+};
+
+template <class D>
+STAGE Constants<D> prepare(D d, Mode m, const Job& job) {
+  Constants<D> c{Palette16<D>(job.clut)};
+  if (m.surface.shade == Shade::gouraud) {
+    c.colour = {ramp(d, job.shade.r.dx), ramp(d, job.shade.g.dx), ramp(d, job.shade.b.dx)};
+  }
+  if (m.surface.texture != Texture::none) {
+    c.u = ramp(d, job.texel.u.dx);
+    c.v = ramp(d, job.texel.v.dx);
+  }
+  return c;
+}
+
+/// The attributes of the block that is next in a span.
+template <class D>
+struct Walk {
+  Rgb<D> colour{};
+  V<D> u{}, v{};
+  std::uint32_t first_u = 0, first_v = 0;
+  bool is_adjacent = false;  // texels from first_u on lie side by side
+  double depth = 0;          // of the span's first pixel
+  FixedDepths<D> fixed_depth{};
+};
+
+template <class D>
+STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, const Span& span) {
+  Walk<D> walk;
+  const auto start = [&](const Gradient& g, V<D> lanes) {
+    return hn::Add(hn::Set(d, static_cast<std::int32_t>(g.at(span.dx, span.dy))), lanes);
+  };
+  if (m.surface.shade == Shade::gouraud) {
+    walk.colour = {start(job.shade.r, constants.colour.r), start(job.shade.g, constants.colour.g),
+                   start(job.shade.b, constants.colour.b)};
+  }
+  if (m.surface.texture != Texture::none) {
+    walk.u = start(job.texel.u, constants.u);
+    walk.v = start(job.texel.v, constants.v);
+    walk.first_u = job.texel.u.at(span.dx, span.dy) >> 24;
+    walk.first_v = job.texel.v.at(span.dx, span.dy) >> 24;
+    walk.is_adjacent = job.page.side_by_side && walk.first_u + static_cast<std::uint32_t>(span.count) <= 256;
+  }
+  if (m.depth && job.depth.is_fixed) {
+    walk.fixed_depth = FixedDepths<D>::from(job.depth.fixed.at(span.dx, span.dy), job.depth.fixed.dx);
+  } else if (m.depth) {
+    walk.depth = depth_at(job.depth, span);
+  }
+  return walk;
+}
+
+template <class D>
+STAGE void advance(D d, Mode m, const Job& job, Walk<D>& walk) {
+  constexpr auto lanes = static_cast<std::uint32_t>(hn::MaxLanes(d));
+  const auto block = [d](const Gradient& g) { return hn::Set(d, static_cast<std::int32_t>(g.dx * lanes)); };
+  if (m.surface.shade == Shade::gouraud) {
+    walk.colour.r = hn::Add(walk.colour.r, block(job.shade.r));
+    walk.colour.g = hn::Add(walk.colour.g, block(job.shade.g));
+    walk.colour.b = hn::Add(walk.colour.b, block(job.shade.b));
+  }
+  if (m.surface.texture != Texture::none) {
+    walk.u = hn::Add(walk.u, block(job.texel.u));
+    walk.v = hn::Add(walk.v, block(job.texel.v));
+    walk.first_u += lanes;
+  }
+  if (m.depth && job.depth.is_fixed) FixedDepths<D>::advance(walk.fixed_depth, job.depth.fixed.dx);
+}
+
+/// Depth key of each lane; `done` pixels of the span lie behind.
+template <class D>
+STAGE V<D> depth_keys(D d, const Job& job, const Walk<D>& walk, int done) {
+  if (job.depth.is_fixed) return key_of(d, job.depth, FixedDepths<D>::stored(walk.fixed_depth));
+  return key_of(d, job.depth, computed_depth(d, job.depth, walk.depth, done));
+}
+
+template <class D>
+STAGE V<D> texel(D d, Mode m, const Job& job, const Palette16<D>& palette, const Walk<D>& walk) {
+  if (m.surface.texture == Texture::none) return hn::Zero(d);
+  if (walk.is_adjacent) {
+    return through_palette(d, m, job, palette, adjacent_word(d, m, job, walk.first_u, walk.first_v));
+  }
+  return through_palette(d, m, job, palette, texel_word(d, m, job, whole(d, walk.u), whole(d, walk.v)));
+}
+
+/// The pixel before it meets VRAM: 15 bits, or a raw texel with all 16.
+template <class D>
+STAGE V16<D> shade(D d, Mode m, const Job& job, const Walk<D>& walk, V<D> texel_bits, int x, int y) {
+  const bool is_gouraud = m.surface.shade == Shade::gouraud, is_textured = m.surface.texture != Texture::none;
+  if (m.surface.shade == Shade::raw) return narrow(d, texel_bits);
+  if (!is_gouraud && !is_textured) return hn::Set(Half16<D>(), job.colour);
+  const auto set = [d](std::uint8_t channel) { return hn::Set(d, std::int32_t{channel}); };
+  Rgb<D> colour{set(job.r), set(job.g), set(job.b)};
+  if (is_gouraud) colour = {whole(d, walk.colour.r), whole(d, walk.colour.g), whole(d, walk.colour.b)};
+  if (is_textured) colour = modulate(d, texel_bits, colour);
+  return narrow(d, pack(d, m, colour, x, y));
+}
+
+/// What of `pixel` ends in VRAM where `back` is, mask bit included.
+template <class D16, class T = hn::Vec<D16>>
+STAGE T combine(D16 d, Mode m, const Job& job, T texel_bits, T pixel, T back) {
+  const bool is_textured = m.surface.texture != Texture::none, is_blended = m.write >= Write::average;
+  const auto bit15 = hn::Set(d, 0x8000);
+  if (is_blended && is_textured) {
+    const auto lets_light_through = hn::Ne(hn::And(texel_bits, bit15), hn::Zero(d));
+    pixel = hn::IfThenElse(lets_light_through, hn::Or(blend(d, m.write, back, pixel), bit15), pixel);
+  } else if (is_blended) {
+    pixel = blend(d, m.write, back, pixel);
+  } else if (is_textured && m.surface.shade != Shade::raw) {
+    pixel = hn::Or(pixel, hn::And(texel_bits, bit15));
+  }
+  return hn::Or(pixel, hn::Set(d, job.mask_set));
+}
+
+/// One lane: what the watcher is told. A fragment that lost the depth test is told too, as rejected.
+template <class D16, class T = hn::Vec<D16>>
+STAGE Event event_of(D16 d, Mode m, const Job& job, T texel16, T shaded, T back, std::size_t place) {
+  Mode unblended = m;
+  unblended.write = Write::opaque;
+  Event event;
+  event.pixel = static_cast<std::uint32_t>(place);
+  event.before = event.after = hn::GetLane(back);
+  event.fragment = hn::GetLane(combine(d, unblended, job, texel16, shaded, back));
+  event.blended = m.write >= Write::average &&
+                  (m.surface.texture == Texture::none || (hn::GetLane(texel16) & 0x8000) != 0);
+  return event;
+}
+
+template <class D, class Observer>
+STAGE void draw_block(D d, Mode m, const Job& job, const Palette16<D>& palette, const Walk<D>& walk,
+                      const Span& span, int done, [[maybe_unused]] const Observer& observer) {
+  const Half16<D> d16;
+  const int x = span.x + done;
+  const std::size_t place = Vram::offset(x, span.y);
+  std::uint16_t* const at = job.pixels + place;
+  auto wanted = hn::FirstN(d16, static_cast<std::size_t>(span.count - done));
+  [[maybe_unused]] auto nearest = wanted;
+
+  V<D> key = hn::Zero(d);
+  if (m.depth) {
+    key = depth_keys(d, job, walk, done);
+    const auto old = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(job.depth.keys + place));
+    nearest = to_mask16(d, nearer(d, job.depth, key, old));
+    if constexpr (!Observer::is_on) {
+      wanted = hn::And(wanted, nearest);
+      if (hn::AllFalse(d16, wanted)) return;
+    }
+  }
+
+  const auto texel_bits = texel(d, m, job, palette, walk);
+  const auto texel16 = narrow(d, texel_bits);
+  if (m.surface.texture != Texture::none) {
+    wanted = hn::And(wanted, hn::Ne(texel16, hn::Zero(d16)));  // texel 0000h is no texel
+    if (m.depth) {
+      const auto kind = hn::And(texel16, hn::Set(d16, job.depth.texel_mask));
+      wanted = hn::And(wanted, hn::Eq(kind, hn::Set(d16, job.depth.texel_value)));
+    }
+  }
+
+  auto back = hn::Zero(d16);
+  if (m.write != Write::opaque || Observer::is_on) {
+    back = hn::LoadU(d16, at);
+    wanted = hn::And(wanted, hn::Eq(hn::And(back, hn::Set(d16, job.mask_test)), hn::Zero(d16)));
+  }
+  const auto shaded = shade(d, m, job, walk, texel_bits, x, span.y);
+  const auto pixel = combine(d16, m, job, texel16, shaded, back);
+  if constexpr (Observer::is_on) {
+    if (hn::AllFalse(d16, wanted)) return;
+    Event event = event_of(d16, m, job, texel16, shaded, back, place);
+    event.depth = static_cast<std::uint32_t>(hn::GetLane(key));
+    event.rejected = m.depth && hn::AllFalse(d16, nearest);
+    if (!event.rejected) event.after = hn::GetLane(pixel);
+    observer.watch.note(event);
+    if (event.rejected) return;
+  }
+  store(d16, pixel, wanted, at);
+  if (m.depth && job.depth.writes) {  // after the texel test: a hole hides nothing
+    store(d, key, to_mask32(d, wanted), reinterpret_cast<std::int32_t*>(job.depth.keys + place));
+  }
+}
+
+/// Flat and opaque: the colour is known before the row is.
+STAGE void fill_row(std::uint16_t* to, int width, std::uint16_t value) {
+  const hn::ScalableTag<std::uint16_t> d;
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  const auto values = hn::Set(d, value);
+  for (; width >= lanes; width -= lanes, to += lanes) hn::StoreU(values, d, to);
+  if (width > 0) store(d, values, hn::FirstN(d, static_cast<std::size_t>(width)), to);
+}
+
+template <class D, class Observer>
+STAGE void draw_spans(D d, Mode m, const Job& job, std::span<const Span> spans, const Observer& observer) {
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  if (m == Mode{{Texture::none, Shade::flat, false}, Write::opaque, false} && !Observer::is_on) {
+    for (const Span& span : spans)
+      fill_row(job.pixels + Vram::offset(span.x, span.y), span.count, job.colour);
+    return;
+  }
+  const Constants<D> constants = prepare(d, m, job);
+  for (const Span& span : spans) {
+    Walk<D> walk = begin(d, m, job, constants, span);
+    int done = 0;
+    while (true) {
+      draw_block(d, m, job, constants.palette, walk, span, done, observer);
+      done += lanes;
+      if (done >= span.count) break;
+      advance(d, m, job, walk);
+    }
+  }
+}
+
+template <std::size_t index>
+void kernel(const Job& job, std::span<const Span> spans) {
+  draw_spans(hn::ScalableTag<std::int32_t>(), Mode::at(index), job, spans, Unwatched());
+}
+
+constexpr KernelTable table = []<std::size_t... I>(std::index_sequence<I...>) {
+  return KernelTable{&kernel<I>...};
+}
+(std::make_index_sequence<Mode::count>());
+
+#if HWY_TARGET == HWY_STATIC_TARGET
+using OnePixel = hn::CappedTag<std::int32_t, 1>;
+
+void in_order(const Mode& mode, const Job& job, std::span<const Span> spans) {
+  draw_spans(OnePixel(), mode, job, spans, Unwatched());
+}
+
+void watched(const Mode& mode, const Job& job, std::span<const Span> spans, const Watch& watch) {
+  draw_spans(OnePixel(), mode, job, spans, Watched{watch});
+}
+#endif
+
+void fill_block(std::uint16_t* to, int width, int height, std::uint16_t value) {
+  for (; height > 0; --height, to += Vram::width) fill_row(to, width, value);
+}
+
+/// Vectors from the lower end up when the target lies there, else from the upper end down. Written out
+/// because GCC turns a bounded memcpy of a row into `rep movsq`, several times slower at these lengths.
+STAGE void copy_row(std::uint16_t* to, const std::uint16_t* from, int width) {
+  const hn::ScalableTag<std::uint16_t> d;
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  const int whole_vectors = width / lanes * lanes;
+  const auto copy = [&](int i) { hn::StoreU(hn::LoadU(d, from + i), d, to + i); };
+  if (to <= from) {
+    for (int i = 0; i < whole_vectors; i += lanes) copy(i);
+  }
+  if (whole_vectors < width) {
+    const auto rest = hn::FirstN(d, static_cast<std::size_t>(width - whole_vectors));
+    store(d, hn::LoadU(d, from + whole_vectors), rest, to + whole_vectors);
+  }
+  if (to > from) {
+    for (int i = whole_vectors - lanes; i >= 0; i -= lanes) copy(i);
+  }
+}
+
+void copy_block(std::uint16_t* to, const std::uint16_t* from, int width, int height) {
+  for (; height > 0; --height, to += Vram::width, from += Vram::width) copy_row(to, from, width);
+}
+
+constexpr BlockOperations blocks{&fill_block, &copy_block};
+
+}  // namespace gpu::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace gpu {
+
+namespace {
+
+struct Target {
+  std::int64_t id;
+  const KernelTable* table;
+  const BlockOperations* blocks;
+};
+
+/// Best first.
+constexpr Target targets[] = {
+#if HWY_TARGETS & HWY_AVX3
+    {HWY_AVX3, &N_AVX3::table, &N_AVX3::blocks},
+#endif
+#if HWY_TARGETS & HWY_AVX2
+    {HWY_AVX2, &N_AVX2::table, &N_AVX2::blocks},
+#endif
+#if HWY_TARGETS & HWY_SSE4
+    {HWY_SSE4, &N_SSE4::table, &N_SSE4::blocks},
+#endif
+    {HWY_STATIC_TARGET, &HWY_NAMESPACE::table, &HWY_NAMESPACE::blocks},
+};
+
+bool is_supported(const Target& target) {
+  return target.id == HWY_STATIC_TARGET || (hwy::SupportedTargets() & target.id) != 0;
+}
+
+/// Read for every primitive: a plain pointer, set when first asked for.
+const Target* chosen = nullptr;
+
+const Target& target() {
+  if (chosen == nullptr) chosen = std::find_if(std::begin(targets), std::end(targets), is_supported);
+  return *chosen;
+}
+
+}  // namespace
+
+const KernelTable& kernels() { return *target().table; }
+const BlockOperations& block_operations() { return *target().blocks; }
+std::string_view target_name() { return hwy::TargetName(target().id); }
+
+std::vector<std::string_view> target_names() {
+  std::vector<std::string_view> names;
+  for (const Target& candidate : targets) {
+    if (is_supported(candidate)) names.emplace_back(hwy::TargetName(candidate.id));
+  }
+  return names;
+}
+
+bool use_target(std::string_view name) {
+  for (const Target& candidate : targets) {
+    if (!is_supported(candidate) || name != hwy::TargetName(candidate.id)) continue;
+    chosen = &candidate;
+    return true;
+  }
+  return false;
+}
+
+void draw_in_order(const Mode& mode, const Job& job, std::span<const Span> spans) {
+  HWY_NAMESPACE::in_order(mode, job, spans);
+}
+
+void draw_watched(const Mode& mode, const Job& job, std::span<const Span> spans, const Watch& watch) {
+  HWY_NAMESPACE::watched(mode, job, spans, watch);
+}
+
+}  // namespace gpu
+#endif

@@ -1,0 +1,45 @@
+#pragma once
+// The table of span kernels for the processor at hand.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "gpu/job.h"
+#include "gpu/mode.h"
+#include "gpu/watch.h"
+
+namespace gpu {
+
+/// Draws the spans in order. Pixels of one call must not be texels of the same call.
+using Kernel = void (*)(const Job& job, std::span<const Span> spans);
+
+/// One kernel per Mode::index().
+using KernelTable = std::array<Kernel, Mode::count>;
+
+/// One pixel after the other, left to right, each seeing what the one before it wrote: for textures that lie
+/// where the primitive draws, and for whoever watches. All modes in one body, decided at run time; no kernel
+/// has a trace.
+void draw_in_order(const Mode& mode, const Job& job, std::span<const Span> spans);
+void draw_watched(const Mode& mode, const Job& job, std::span<const Span> spans, const Watch& watch);
+
+/// The table for the best target of this processor, or the one chosen by use_target.
+const KernelTable& kernels();
+
+/// Whole rectangles inside VRAM, rows Vram::width apart, from the top. Up to Vram::padding halfwords behind a
+/// row are read, and kept.
+struct BlockOperations {
+  void (*fill)(std::uint16_t* to, int width, int height, std::uint16_t value);
+  /// A row is read whole before it is written; the rows may overlap.
+  void (*copy)(std::uint16_t* to, const std::uint16_t* from, int width, int height);
+};
+const BlockOperations& block_operations();
+
+/// The dispatch target in use: "AVX3", "AVX2", "SSE4", "SCALAR" or what Highway calls another processor's.
+std::string_view target_name();
+/// Targets this processor runs, best first; one of them for all later drawing (tests, benchmarks). False:
+/// unknown.
+std::vector<std::string_view> target_names();
+bool use_target(std::string_view name);
+
+}  // namespace gpu

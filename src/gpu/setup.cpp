@@ -1,0 +1,100 @@
+#include "gpu/setup.h"
+
+#include <algorithm>
+
+#include "gpu/kernels.h"
+#include "ot/gp0.h"
+
+namespace gpu {
+
+namespace {
+
+std::uint16_t pack_flat(const Vertex& vertex) {
+  return static_cast<std::uint16_t>(vertex.r >> 3 | vertex.g >> 3 << 5 | vertex.b >> 3 << 10);
+}
+
+Write write_of(const Primitive& primitive) {
+  if (!primitive.is_semi_transparent()) {
+    return primitive.state.mask_test() != 0 ? Write::masked : Write::opaque;
+  }
+  constexpr Write blends[] = {Write::average, Write::add, Write::subtract, Write::add_quarter};
+  return blends[static_cast<std::size_t>(primitive.state.blend())];
+}
+
+/// Halfwords a row of a texture page takes, and how far the column wraps.
+int page_width(TexelFormat format) { return 64 << static_cast<int>(format); }
+
+}  // namespace
+
+Mode mode_of(const Primitive& primitive, bool dithers) {
+  const bool is_textured = primitive.is_textured();
+  const bool is_gouraud = primitive.kind == Kind::polygon && primitive.is_gouraud();
+  const Shade shade = primitive.is_raw() ? Shade::raw : is_gouraud ? Shade::gouraud : Shade::flat;
+  constexpr Texture textures[] = {Texture::clut4, Texture::clut8, Texture::direct15};
+  return {
+      .surface = {.texture = is_textured ? textures[static_cast<std::size_t>(primitive.state.texel_format())]
+                                         : Texture::none,
+                  .shade = shade,
+                  .dither = dithers && primitive.state.dithers() && shade != Shade::raw &&
+                            (is_textured || shade == Shade::gouraud)},
+      .write = write_of(primitive),
+      .depth = false,
+  };
+}
+
+void put_constants(Job& job, const Surface& surface, const Primitive& primitive) {
+  const DrawState& state = primitive.state;
+  job.pixels = surface.vram.pixels().data();
+  job.clut = surface.clut;
+  job.mask_set = state.mask_set();
+  job.mask_test = state.mask_test();
+  const Vertex& first = primitive.vertices[0];
+  job.r = first.r;
+  job.g = first.g;
+  job.b = first.b;
+  job.colour = static_cast<std::uint16_t>(pack_flat(first) | state.mask_set());
+  if (!primitive.is_textured()) return;
+  job.page = {.x = static_cast<std::uint32_t>(state.page_x()),
+              .y = static_cast<std::uint32_t>(state.page_y()),
+              .keep_u = state.window_keep_u(),
+              .keep_v = state.window_keep_v(),
+              .set_u = state.window_set_u(),
+              .set_v = state.window_set_v(),
+              .side_by_side = false};
+}
+
+/// True already where the drawn box meets the texture page: rarely wrong, never too late.
+bool samples_what_it_draws(const DrawState& state, const Box& drawn) {
+  const int page_left = state.page_x(), page_right = page_left + page_width(state.texel_format());
+  const auto meets_columns = [&](int shift) {
+    return drawn.left < page_right - shift && page_left - shift <= drawn.right;
+  };
+  const auto meets_rows = [&](int shift) {
+    return drawn.top < state.page_y() + 256 + shift && state.page_y() + shift <= drawn.bottom;
+  };
+  return (meets_columns(0) || meets_columns(Vram::width)) && (meets_rows(0) || meets_rows(Vram::height));
+}
+
+bool has_adjacent_texels(const Job& job, Texture texture) {
+  constexpr std::uint32_t one = 1U << 24;
+  if (texture == Texture::none || job.texel.u.dx != one || job.texel.v.dx != 0) return false;
+  const TexturePage& page = job.page;
+  const bool has_window = page.keep_u != 0xff || page.keep_v != 0xff || page.set_u != 0 || page.set_v != 0;
+  const int width = 64 << (static_cast<int>(texture) - static_cast<int>(Texture::clut4));
+  return !has_window && static_cast<int>(page.x) + width <= Vram::width;
+}
+
+void run(const Surface& surface, const Mode& mode, const Job& job, std::span<const Span> spans,
+         bool in_order) {
+  ++surface.counters.kernels[mode.index()];
+  if (surface.trace != nullptr) {
+    draw_watched(mode, job, spans, {surface.trace, surface.draw, surface.half});
+  } else if (in_order) {
+    ++surface.counters.drawn_in_order;
+    draw_in_order(mode, job, spans);
+  } else {
+    kernels()[mode.index()](job, spans);
+  }
+}
+
+}  // namespace gpu

@@ -1,0 +1,182 @@
+// Triangles: edges, gradients, rows. Set-up decides the speed of small ones, so it divides only where the
+// hardware's gradients demand it, and there in floating point that gives the integer quotient exactly.
+
+#include <algorithm>
+#include <array>
+
+#include "gpu/coverage.h"
+#include "gpu/depth_setup.h"
+#include "gpu/edge.h"
+#include "gpu/setup.h"
+
+namespace gpu {
+
+namespace {
+
+using Three = std::array<const Vertex*, 3>;
+
+/// Rows first .. last-1 between two edges. Coordinates outside 11 bits wrap for the test and the store, not
+/// for the gradients.
+void add_rows(SpanList& list, const DrawState& state, Edge left, Edge right, int first, int last,
+              Point core) {
+  const int area_left = state.left(), area_end = state.right() + 1, top = state.top(),
+            bottom = state.bottom();
+  const bool skips = state.skipped_rows != SkippedRows::none;
+  for (int row = first; row < last; ++row, left.x += left.step, right.x += right.step) {
+    const int y = sign_extend_11(static_cast<std::uint32_t>(row));
+    if (y < top || y > bottom) continue;
+    const int start = left.column(), width = right.column() - start;
+    const int x = sign_extend_11(static_cast<std::uint32_t>(start));
+    const int from = std::max(x, area_left), to = std::min(x + width, area_end);
+    if (from >= to || (skips && state.skips(y))) continue;
+    list.add(from, y, to - from, start + (from - x) - core.x, row - core.y);
+  }
+}
+
+/// Top to bottom. Returns how many spans lie above the middle vertex.
+std::size_t add_spans(SpanList& list, const DrawState& state, const Corners& sorted, Point core) {
+  const auto& [top, middle, bottom] = sorted;
+  Edge along(top, bottom);
+  const bool middle_is_right = doubled_area(sorted) > 0;
+  const auto add_half = [&](Point from, Point to) {
+    if (from.y == to.y) return;
+    const Edge across(from, to);
+    add_rows(list, state, middle_is_right ? along : across, middle_is_right ? across : along, from.y, to.y,
+             core);
+    along.x += along.step * (to.y - from.y);
+  };
+  add_half(top, middle);
+  const std::size_t upper = list.count;
+  add_half(middle, bottom);
+  return upper;
+}
+
+/// Cuts the spans to the limits and drops what is outside. Returns how many of the first `upper` are left.
+std::size_t restrict_to(SpanList& list, const Limits& limits, const DrawState& state, Point core,
+                        std::size_t upper) {
+  std::size_t kept = 0, kept_upper = 0;
+  for (std::size_t i = 0; i < list.count; ++i) {
+    if (i == upper) kept_upper = kept;
+    Span span = list.spans[i];
+    const Columns limit = limits.at(span.dy + core.y - state.offset_y());
+    const int start = span.dx + core.x - state.offset_x();  // as transmitted
+    const int from = std::max(start, limit.left), to = std::min(start + span.count, limit.right);
+    if (from >= to) continue;
+    span.x = static_cast<std::int16_t>(span.x + from - start);
+    span.dx = static_cast<std::int16_t>(span.dx + from - start);
+    span.count = static_cast<std::int16_t>(to - from);
+    list.spans[kept++] = span;
+  }
+  if (upper >= list.count) kept_upper = kept;
+  list.count = kept;
+  return kept_upper;
+}
+
+/// Where the spans lie; all of the drawing area if a coordinate wraps.
+Box drawn_box(const DrawState& state, const Corners& c, const SpanList& list) {
+  const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
+  const int top = list.spans[0].y, bottom = list.spans[list.count - 1].y;
+  if (left < -1024 || right > 1023 || top > bottom)
+    return {state.left(), state.top(), state.right(), state.bottom()};
+  return {std::max(left, state.left()), top, std::min(right, state.right()), bottom};
+}
+
+/// Rows run away from the core vertex; the lower part comes first unless the core is on top.
+void order_from_core(SpanList& list, std::size_t upper, const Corners& sorted, Point core) {
+  if (core == sorted[0]) return;
+  const auto begin = list.spans.begin(), end = begin + static_cast<std::ptrdiff_t>(list.count);
+  const auto middle = begin + static_cast<std::ptrdiff_t>(upper);
+  if (core == sorted[1]) {
+    std::reverse(begin, middle);
+    std::rotate(begin, middle, end);
+  } else {
+    std::reverse(begin, end);
+  }
+}
+
+/// The leftmost vertex, ties as the hardware has them.
+std::size_t core_vertex(const Three& t) {
+  if (t[1]->x <= t[0]->x) return t[2]->x <= t[1]->x ? 2 : 1;
+  return t[2]->x < t[0]->x ? 2 : 0;
+}
+
+/// Gradients of n attributes: trunc(numerator * 4096 / area) << 12. Numerators are below 2^31 and areas below
+/// 2^21, so the rounded quotient of doubles never reaches the next integer.
+template <std::size_t n>
+void put_gradients(std::array<Gradient*, n> out, const Three& t, const Vertex& core, int area,
+                   std::array<std::uint8_t Vertex::*, n> fields) {
+  const int y10 = t[1]->y - t[0]->y, y21 = t[2]->y - t[1]->y;
+  const int x10 = t[1]->x - t[0]->x, x21 = t[2]->x - t[1]->x;
+  std::array<double, 2 * n> quotients;
+  for (std::size_t i = 0; i < n; ++i) {
+    const int f0 = t[0]->*fields[i], f1 = t[1]->*fields[i], f2 = t[2]->*fields[i];
+    quotients[2 * i] = ((f1 - f0) * y21 - (f2 - f1) * y10) * 4096;
+    quotients[2 * i + 1] = (x10 * (f2 - f1) - x21 * (f1 - f0)) * 4096;
+  }
+  for (double& quotient : quotients) quotient /= area;
+  for (std::size_t i = 0; i < n; ++i) {
+    *out[i] = {.start = (std::uint32_t{core.*fields[i]} << 24) + (1U << 23),
+               .dx = static_cast<std::uint32_t>(static_cast<std::int32_t>(quotients[2 * i])) << 12,
+               .dy = static_cast<std::uint32_t>(static_cast<std::int32_t>(quotients[2 * i + 1])) << 12};
+  }
+}
+
+void put_gradients(Job& job, const Mode& mode, const Three& t, const Vertex& core, int area) {
+  ColourGradients& c = job.shade;
+  TextureGradients& x = job.texel;
+  const bool is_textured = mode.surface.texture != Texture::none;
+  if (mode.surface.shade == Shade::gouraud && is_textured) {
+    put_gradients<5>({&c.r, &c.g, &c.b, &x.u, &x.v}, t, core, area,
+                     {&Vertex::r, &Vertex::g, &Vertex::b, &Vertex::u, &Vertex::v});
+  } else if (mode.surface.shade == Shade::gouraud) {
+    put_gradients<3>({&c.r, &c.g, &c.b}, t, core, area, {&Vertex::r, &Vertex::g, &Vertex::b});
+  } else if (is_textured) {
+    put_gradients<2>({&x.u, &x.v}, t, core, area, {&Vertex::u, &Vertex::v});
+  }
+}
+
+void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass, const Mode& mode, Job& job,
+                   const Three& t) {
+  const Corners corners{{{t[0]->x, t[0]->y}, {t[1]->x, t[1]->y}, {t[2]->x, t[2]->y}}};
+  if (is_too_large(corners)) {
+    ++surface.counters.discarded;
+    return;
+  }
+  const int area = doubled_area(corners);
+  if (area == 0) return;
+  ++surface.counters.triangles;
+  const std::size_t core = core_vertex(t);
+  const Corners sorted = sorted_by_row(corners);
+  SpanList list;
+  std::size_t upper = add_spans(list, primitive.state, sorted, corners[core]);
+  if (surface.limits != nullptr)
+    upper = restrict_to(list, *surface.limits, primitive.state, corners[core], upper);
+  if (list.count == 0) return;
+  put_gradients(job, mode, t, *t[core], area);
+  if (pass != Pass::console) put_depth(job.depth, *surface.depth, primitive, t, *t[core], pass);
+  bool in_order = false;
+  if (mode.surface.texture != Texture::none) {
+    in_order = samples_what_it_draws(primitive.state, drawn_box(primitive.state, corners, list));
+    if (in_order) order_from_core(list, upper, sorted, corners[core]);
+    job.page.side_by_side = !in_order && has_adjacent_texels(job, mode.surface.texture);
+  }
+  run(surface, mode, job, list.all(), in_order);
+}
+
+}  // namespace
+
+void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass) {
+  Mode mode = mode_of(primitive, true);
+  mode.depth = pass != Pass::console;
+  if (pass == Pass::opaque) mode.write = primitive.state.mask_test() != 0 ? Write::masked : Write::opaque;
+  Job job;
+  put_constants(job, surface, primitive);
+  const auto& v = primitive.vertices;
+  draw_triangle(surface, primitive, pass, mode, job, {&v[0], &v[1], &v[2]});
+  if (!primitive.is_quad()) return;
+  Surface second = surface;
+  second.half = 1;
+  draw_triangle(second, primitive, pass, mode, job, {&v[1], &v[2], &v[3]});
+}
+
+}  // namespace gpu

@@ -1,0 +1,3 @@
+otter_bench(gpu
+  LIBRARIES gpu
+  SOURCES gpu.cpp)
