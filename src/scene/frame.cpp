@@ -389,7 +389,7 @@ std::vector<NodeMark> FrameBuilder::marks() const {
   const bool is_split = state_->frame_knobs.visibility == Visibility::bsp;
   const auto& ordered = state_->split.far_to_near();
   for (const auto& node : state_->list.sorted()) {
-    NodeMark mark{.tag = node.first, .key = node.key};
+    NodeMark mark{.tag = node.first_node, .key = node.key};
     if (is_split) {
       const OrderedPrimitive& piece = ordered[ordered.size() - 1 - node.key];
       mark.key = none;

@@ -81,10 +81,7 @@ class ListBuilder {
 
   /// Visibility sorted and bsp, after end(): a primitive's bucket and the first tag of its nodes, in list
   /// order.
-  struct Sorted {
-    std::uint32_t key, first, last;
-  };
-  [[nodiscard]] std::span<const Sorted> sorted() const { return sorted_; }
+  [[nodiscard]] std::span<const ot::Keyed> sorted() const { return sorted_.items(); }
 
   [[nodiscard]] bool is_full() const { return full_; }
   [[nodiscard]] std::uint32_t head() const;
