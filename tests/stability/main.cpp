@@ -30,8 +30,9 @@ constexpr const char* marker = "<!-- end of the generated part -->\n";
 
 std::string page() {
   auto all = lines();
-  std::stable_sort(all.begin(), all.end(),
-                   [](const Line& a, const Line& b) { return a.section < b.section; });
+  std::stable_sort(all.begin(), all.end(), [](const Line& a, const Line& b) {
+    return std::stoi(a.section) < std::stoi(b.section);  // "6. Depth"
+  });
   std::ostringstream text;
   text << "# What stays stable, and how far it was tried\n\n"
           "Every line is a test. `build/release/bin/tests_stability -tc=\"NAME\"` repeats one,\n"
