@@ -297,34 +297,6 @@ Download decode_download(std::span<const std::uint32_t> w) {
   return {.x = low(w[1]), .y = high(w[1]), .width = low(w[2]), .height = high(w[2])};
 }
 
-void DepthReader::take(std::uint32_t word_in) {
-  using namespace gp0::annotation;
-  const auto code = gp0::Opcode::get(word_in);
-  assert(code >= depth_high && code < fraction + 4);
-  const auto put_high = [&](std::size_t v, std::uint32_t byte) {
-    value.z[v] = DepthLow::get(value.z[v]) | byte << 24;
-  };
-  if (code == depth_high) {
-    if (high_words++ == 0) {
-      put_high(0, High0::get(word_in));
-      put_high(1, High1::get(word_in));
-      put_high(2, High2::get(word_in));
-    } else {
-      put_high(3, High0::get(word_in));
-    }
-  } else if (code < fraction) {
-    const auto v = code - depth_low;
-    value.z[v] = (value.z[v] & ~DepthLow::mask) | DepthLow::get(word_in);
-    depths |= 1U << v;
-    value.count = std::max(value.count, static_cast<int>(v) + 1);
-  } else {
-    const auto v = code - fraction;
-    value.fx[v] = static_cast<std::uint8_t>(FractionX::get(word_in));
-    value.fy[v] = static_cast<std::uint8_t>(FractionY::get(word_in));
-    value.has_fractions = true;
-  }
-}
-
 std::optional<std::uint32_t> PacketArena::push(std::span<const std::uint32_t> payload) {
   assert(payload.size() <= tag::Length::max);
   const auto length = static_cast<std::uint32_t>(payload.size());

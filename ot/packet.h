@@ -179,21 +179,6 @@ Copy decode_copy(std::span<const std::uint32_t> words);
 Upload decode_upload(std::span<const std::uint32_t> words);
 Download decode_download(std::span<const std::uint32_t> words);
 
-/// Takes annotation words one by one, as the GPU meets them. `depths` has bit v set when v's depth was given.
-struct DepthReader {
-  DepthAnnotation value{.count = 0};
-  unsigned depths = 0;
-  int high_words = 0;
-
-  void take(std::uint32_t word);  ///< an E7h-EFh word
-  void clear() { *this = DepthReader{}; }
-  /// Every one of the polygon's vertices has a depth.
-  [[nodiscard]] bool covers(std::size_t vertices) const {
-    const unsigned all = (1U << vertices) - 1;
-    return (depths & all) == all;
-  }
-};
-
 /// Packets one behind the other in begin..end-1 (word aligned byte addresses inside RAM). The RAM must
 /// outlive the arena.
 class PacketArena {

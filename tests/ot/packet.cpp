@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -17,6 +18,49 @@ std::vector<std::uint32_t> words_of(const T& value) {
 }
 
 using Words = std::vector<std::uint32_t>;
+
+/// Takes annotation words one by one, as a GPU meets them. `depths` has bit v set when v's depth was given.
+struct DepthReader {
+  DepthAnnotation value{.count = 0};
+  unsigned depths = 0;
+  int high_words = 0;
+
+  void take(std::uint32_t word);  ///< an E7h-EFh word
+  void clear() { *this = DepthReader{}; }
+  /// Every one of the polygon's vertices has a depth.
+  [[nodiscard]] bool covers(std::size_t vertices) const {
+    const unsigned all = (1U << vertices) - 1;
+    return (depths & all) == all;
+  }
+};
+
+void DepthReader::take(std::uint32_t word_in) {
+  using namespace gp0::annotation;
+  const auto code = gp0::Opcode::get(word_in);
+  assert(code >= depth_high && code < fraction + 4);
+  const auto put_high = [&](std::size_t v, std::uint32_t byte) {
+    value.z[v] = DepthLow::get(value.z[v]) | byte << 24;
+  };
+  if (code == depth_high) {
+    if (high_words++ == 0) {
+      put_high(0, High0::get(word_in));
+      put_high(1, High1::get(word_in));
+      put_high(2, High2::get(word_in));
+    } else {
+      put_high(3, High0::get(word_in));
+    }
+  } else if (code < fraction) {
+    const auto v = code - depth_low;
+    value.z[v] = (value.z[v] & ~DepthLow::mask) | DepthLow::get(word_in);
+    depths |= 1U << v;
+    value.count = std::max(value.count, static_cast<int>(v) + 1);
+  } else {
+    const auto v = code - fraction;
+    value.fx[v] = static_cast<std::uint8_t>(FractionX::get(word_in));
+    value.fy[v] = static_cast<std::uint8_t>(FractionY::get(word_in));
+    value.has_fractions = true;
+  }
+}
 
 }  // namespace
 
