@@ -129,8 +129,9 @@ const std::array<Row, 13> rows{{
      0,
      [](auto& r, int edge) {
        const auto n = static_cast<std::uint32_t>(edge);
+       // Cut to blocks of 16 columns: what is counted is what is written.
        return Shape{{0x02000000 | colour(r), at(below(r, 320 - n), below(r, 240 - n)), at(n, n)},
-                    edge * edge};
+                    (edge + 15) / 16 * 16 * edge};
      }},
     {"VRAM copy",
      {2034, 5559, 13129},
