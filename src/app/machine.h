@@ -32,6 +32,9 @@ class Machine {
   scene::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                         const CameraOffset& camera = {});
 
+  /// From the next draw() on every pixel written is noted in `trace`, until nullptr ends it.
+  void watch(gpu::Trace* trace) { gpu_.set_trace(trace); }
+
   /// What the display shows after draw().
   [[nodiscard]] const display::Picture& picture() const { return picture_; }
 
@@ -48,8 +51,8 @@ class Machine {
   std::function<void(scene::World&, double)> animate_;  // the scene's own
   CameraOffset offset_;
   scene::Camera base_;  // the scene's own camera at the frame last drawn
-  float
-      pivot_distance_;  // of the first frame: a pivot that moved with every frame would make the camera swim
+  // Of the first frame: a pivot that moved with every frame would make the camera swim.
+  float pivot_distance_ = 1;
   ot::MainRam ram_{ot::RamSize::mib8};
   gpu::Gpu gpu_;
   display::Presenter presenter_;

@@ -12,6 +12,8 @@
 #include "app/describe.h"
 #include "app/imgui_layer.h"
 #include "app/input.h"
+#include "app/inspect_panel.h"
+#include "app/inspection.h"
 #include "app/knob_panel.h"
 #include "app/layout.h"
 #include "app/overlay.h"
@@ -42,6 +44,7 @@ class Window {
   scene::Result<void> open();
   void take_events();
   void update();
+  void inspect();
   void draw();
   void draw_pictures();
   void follow_state();
@@ -58,6 +61,8 @@ class Window {
   std::unique_ptr<ImGuiLayer> gui_;
   Input input_;
   Show show_;
+  std::unique_ptr<Inspection> inspection_;  // only while it is asked for
+  int inspected_scene_ = -1;
   Screen left_, right_, vram_;
   Rect area_, picture_;  // for pictures; where the picture is
   float scale_ = 1;      // of letters
@@ -122,9 +127,25 @@ void Window::update() {
     if (state_.compares()) right_.show(renderer_.get(), show_.right());
     if (message_is_error_) message_.clear();
   }
+  inspect();
   if (state_.vram && show_.machine() != nullptr) {
     vram_.show(renderer_.get(), display::scan_out_all(show_.machine()->gpu().vram().pixels()));
   }
+}
+
+// Watches the frame while the inspector is open, and shows what it asks for in place of the left picture.
+void Window::inspect() {
+  if (!state_.inspect || show_.machine() == nullptr) {
+    if (inspection_ && !show_.left().pixels.empty()) left_.show(renderer_.get(), show_.left());
+    inspection_.reset();
+    return;
+  }
+  if (!inspection_ || inspected_scene_ != state_.scene) {
+    inspection_ = std::make_unique<Inspection>(*show_.machine(), state_.knobs);
+    inspected_scene_ = state_.scene;
+  }
+  if (const auto drawn = inspection_->update(state_); !drawn) return say(drawn.error().text, true);
+  left_.show(renderer_.get(), state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws));
 }
 
 void Window::follow_state() {
@@ -176,6 +197,9 @@ void Window::draw() {
     draw_captions(state_, picture_, scale_);
   }
   if (state_.help) draw_help(state_, area_, scale_);
+  if (inspection_ && !state_.vram) {
+    draw_inspect_panel(state_, *inspection_, picture_, left_.width(), left_.height(), area_, scale_);
+  }
   if (state_.panel) draw_knob_panel(state_, show_.scene_name(), area_, scale_);
   if (seconds_since(begin_) < message_until_ || message_is_error_) {
     draw_message(message_, message_is_error_, area_, scale_);

@@ -28,6 +28,7 @@ constexpr std::array table{
     Binding{KeyAction::help, "F1", "H", "start", "this help"},
     Binding{KeyAction::knobs, "F2", "K", "guide", "knobs: every approximation, live"},
     Binding{KeyAction::vram, "F3", "", "", "VRAM, live"},
+    Binding{KeyAction::inspect, "F4", "I", "", "inspect: who drew a pixel, the first K draws alone"},
     Binding{KeyAction::fullscreen, "F11", "", "", "full screen"},
     Binding{KeyAction::screenshot, "F12", "", "", "screenshot into the current folder"},
     Binding{KeyAction::quit, "Escape", "Q", "back", "quit"},
@@ -178,6 +179,10 @@ void handle(WindowState& state, Asked asked) {
       break;
     case KeyAction::vram:
       toggle(state.vram);
+      break;
+    case KeyAction::inspect:
+      toggle(state.inspect);
+      state.first_draws = -1;
       break;
     case KeyAction::fullscreen:
       toggle(state.fullscreen);

@@ -34,6 +34,7 @@ enum class KeyAction : std::uint8_t {
   help,
   knobs,
   vram,
+  inspect,
   fullscreen,
   screenshot,
   quit,
@@ -81,6 +82,8 @@ struct WindowState {
   double divider = 0.5;  ///< where the right picture begins, 0..1 of the width
   bool differences = false;
   bool help = false, panel = false, vram = false;
+  bool inspect = false;  ///< a frame is watched: history under the mouse, the first draws alone
+  int first_draws = -1;  ///< with inspect: only so many draws are shown; below 0: all
   bool fullscreen = false;
   bool screenshot = false;  ///< asked for; the window takes it and clears this
   bool quit = false;

@@ -1,0 +1,65 @@
+#include "app/inspect_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+namespace {
+
+// The history under the mouse, the last lines of it if it is long, and the pixel outlined.
+void draw_history(const Inspection& inspection, Rect picture, int width, int height) {
+  const auto& io = ImGui::GetIO();
+  if (io.WantCaptureMouse || !ImGui::IsMousePosValid(&io.MousePos) || width <= 0 || height <= 0) return;
+  const float pixel_width = static_cast<float>(picture.width) / static_cast<float>(width);
+  const float pixel_height = static_cast<float>(picture.height) / static_cast<float>(height);
+  const int x = static_cast<int>(std::floor((io.MousePos.x - static_cast<float>(picture.x)) / pixel_width));
+  const int y = static_cast<int>(std::floor((io.MousePos.y - static_cast<float>(picture.y)) / pixel_height));
+  if (x < 0 || y < 0 || x >= width || y >= height) return;
+  const ImVec2 low{static_cast<float>(picture.x) + static_cast<float>(x) * pixel_width,
+                   static_cast<float>(picture.y) + static_cast<float>(y) * pixel_height};
+  ImGui::GetBackgroundDrawList()->AddRect({low.x - 1, low.y - 1},
+                                          {low.x + pixel_width + 1, low.y + pixel_height + 1},
+                                          IM_COL32(0xff, 0xff, 0xff, 255));
+  const auto lines = inspection.history(x, y);
+  constexpr std::size_t most = 14;
+  const std::size_t from = lines.size() > most ? lines.size() - most : 0;
+  ImGui::BeginTooltip();
+  ImGui::TextDisabled("pixel %d, %d: %zu event%s", x, y, lines.size(), lines.size() == 1 ? "" : "s");
+  if (from != 0) ImGui::TextDisabled("... %zu before these", from);
+  for (std::size_t i = from; i < lines.size(); ++i) ImGui::TextUnformatted(lines[i].c_str());
+  ImGui::EndTooltip();
+}
+
+}  // namespace
+
+void draw_inspect_panel(WindowState& state, const Inspection& inspection, Rect picture, int width, int height,
+                        Rect area, float scale) {
+  ImGui::SetNextWindowPos({static_cast<float>(area.x) + 12, static_cast<float>(area.y + area.height) - 12},
+                          ImGuiCond_Appearing, {0, 1});
+  ImGui::SetNextWindowSize({520 * scale, 0}, ImGuiCond_Appearing);
+  if (ImGui::Begin("Inspect", &state.inspect,
+                   ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+    const int draws = inspection.draws();
+    int shown = state.first_draws < 0 ? draws : std::min(state.first_draws, draws);
+    if (ImGui::Button("-")) --shown;
+    ImGui::SameLine();
+    if (ImGui::Button("+")) ++shown;
+    ImGui::SameLine();
+    if (ImGui::Button("all")) shown = draws;
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    ImGui::SliderInt("##draws", &shown, 0, draws, "the first %d draws", ImGuiSliderFlags_AlwaysClamp);
+    shown = std::clamp(shown, 0, draws);
+    state.first_draws = shown == draws ? -1 : shown;
+    ImGui::TextDisabled("of %d; the last of them:", draws);
+    ImGui::SameLine();
+    ImGui::TextUnformatted(inspection.draw_text(shown - 1).c_str());
+    if (!state.paused) ImGui::TextDisabled("Space pauses: a still frame is easier to read.");
+  }
+  ImGui::End();
+  draw_history(inspection, picture, width, height);
+}
+
+}  // namespace app

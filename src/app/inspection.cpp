@@ -1,0 +1,110 @@
+#include "app/inspection.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace app {
+namespace {
+
+const char* kind_word(const gpu::Primitive& p) {
+  switch (p.kind) {
+    case gpu::Kind::polygon:
+      return p.is_quad() ? "quad" : "triangle";
+    case gpu::Kind::rectangle:
+      return "rectangle";
+    case gpu::Kind::line:
+      return "line";
+    case gpu::Kind::fill:
+      return "fill";
+    case gpu::Kind::copy:
+      return "copy";
+    case gpu::Kind::upload:
+      return "upload";
+  }
+  return "";
+}
+
+std::string hex(std::uint16_t pixel) {
+  std::array<char, 8> text{};
+  std::snprintf(text.data(), text.size(), "%04Xh", static_cast<unsigned>(pixel));
+  return text.data();
+}
+
+std::string event_text(const gpu::Event& event) {
+  if (event.rejected) return "lost the depth test";
+  const auto change = hex(event.before) + " -> " + hex(event.after);
+  return event.blended ? change + ", blended with " + hex(event.fragment) : change;
+}
+
+}  // namespace
+
+std::string describe_draw(std::size_t number, const gpu::Primitive& primitive) {
+  std::string text = "draw " + std::to_string(number) + ": ";
+  if (primitive.is_textured()) text += "textured ";
+  if (primitive.kind <= gpu::Kind::line && primitive.is_gouraud()) text += "shaded ";
+  text += kind_word(primitive);
+  if (primitive.is_semi_transparent()) text += ", semi-transparent";
+  if (primitive.bucket != gpu::no_bucket) text += ", bucket " + std::to_string(primitive.bucket);
+  if (primitive.has_depth) {
+    const auto last = primitive.vertices.begin() + primitive.vertex_count;
+    const auto [near, far] = std::minmax_element(primitive.vertices.begin(), last,
+                                                 [](const auto& a, const auto& b) { return a.z < b.z; });
+    text += ", z " + std::to_string(near->z >> 12) + ".." + std::to_string(far->z >> 12);
+  }
+  return text;
+}
+
+Inspection::Inspection(const Machine& like, const scene::Knobs& knobs)
+    : machine_(std::make_unique<Machine>(like.scene_as_given(), knobs)) {
+  trace_.keep_history = true;
+}
+
+scene::Result<bool> Inspection::update(const WindowState& state) {
+  if (frame_ == state.frame && knobs_ == state.knobs && camera_ == state.camera) return false;
+  frame_ = state.frame;
+  knobs_ = state.knobs;
+  camera_ = state.camera;
+  trace_.clear();
+  machine_->watch(&trace_);
+  const auto drawn = machine_->draw(frame_, knobs_, camera_);
+  machine_->watch(nullptr);
+  begins_.clear();
+  for (std::size_t i = 0; i < trace_.history.size(); ++i) {
+    if (i == 0 || trace_.history[i].draw != trace_.history[i - 1].draw) begins_.push_back(i);
+  }
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  return true;
+}
+
+display::Picture Inspection::after(int count) const {
+  if (count < 0 || count >= draws()) return machine_->picture();
+  const auto shown = machine_->gpu().vram().pixels();
+  std::vector<std::uint16_t> vram(shown.begin(), shown.end());
+  const auto first_undone = begins_[static_cast<std::size_t>(count)];
+  for (std::size_t i = trace_.history.size(); i > first_undone; --i) {
+    const auto& event = trace_.history[i - 1];
+    vram[event.pixel] = event.before;  // of a rejected one that is what it was
+  }
+  return display::scan_out(vram, display::area_of(machine_->gpu().display()));
+}
+
+std::string Inspection::draw_text(int at) const {
+  if (at < 0 || at >= draws()) return "nothing";
+  const auto draw = trace_.history[begins_[static_cast<std::size_t>(at)]].draw;
+  return describe_draw(draw, trace_.draws[draw]);
+}
+
+std::vector<std::string> Inspection::history(int x, int y) const {
+  const auto area = display::area_of(machine_->gpu().display());
+  std::vector<std::string> lines;
+  if (x < 0 || y < 0 || x >= area.width || y >= area.height) return lines;
+  const auto pixel = static_cast<std::uint32_t>(gpu::Vram::offset(area.x + x, area.y + y));
+  for (const auto& event : trace_.history) {
+    if (event.pixel != pixel) continue;
+    lines.push_back(describe_draw(event.draw, trace_.draws[event.draw]) + ": " + event_text(event));
+  }
+  return lines;
+}
+
+}  // namespace app
