@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/describe.h"
+#include "inspect/image.h"
+
 namespace app {
 namespace {
 
@@ -23,13 +26,47 @@ void draw_history(const Inspection& inspection, Rect picture, int width, int hei
                                           {low.x + pixel_width + 1, low.y + pixel_height + 1},
                                           IM_COL32(0xff, 0xff, 0xff, 255));
   const auto lines = inspection.history(x, y);
-  constexpr std::size_t most = 14;
+  constexpr std::size_t most = 16;
   const std::size_t from = lines.size() > most ? lines.size() - most : 0;
   ImGui::BeginTooltip();
-  ImGui::TextDisabled("pixel %d, %d: %zu event%s", x, y, lines.size(), lines.size() == 1 ? "" : "s");
-  if (from != 0) ImGui::TextDisabled("... %zu before these", from);
+  ImGui::TextDisabled("pixel %d, %d", x, y);
+  if (from != 0) ImGui::TextDisabled("... %zu lines before these", from);
   for (std::size_t i = from; i < lines.size(); ++i) ImGui::TextUnformatted(lines[i].c_str());
   ImGui::EndTooltip();
+}
+
+// Wrong pixels by cause, each in the colour it has on the map.
+void draw_causes(const inspect::Report& report) {
+  ImGui::Text("%s of %s pixels are wrong", with_commas(report.wrong_pixels()).c_str(),
+              with_commas(report.pixels_drawn).c_str());
+  for (std::size_t i = 0; i < inspect::cause_count; ++i) {
+    const auto cause = static_cast<inspect::Cause>(i);
+    const auto colour = inspect::colour_of(cause);
+    const auto name = inspect::name(cause);
+    if (report.count(cause) == 0) continue;
+    ImGui::TextColored(ImColor(colour.r, colour.g, colour.b), "%.*s", static_cast<int>(name.size()),
+                       name.data());
+    ImGui::SameLine(150);
+    ImGui::TextUnformatted(with_commas(report.count(cause)).c_str());
+  }
+}
+
+void draw_slider(WindowState& state, const Inspection& inspection) {
+  const int draws = inspection.draws();
+  int shown = state.first_draws < 0 ? draws : std::min(state.first_draws, draws);
+  if (ImGui::Button("-")) --shown;
+  ImGui::SameLine();
+  if (ImGui::Button("+")) ++shown;
+  ImGui::SameLine();
+  if (ImGui::Button("all")) shown = draws;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-1);
+  ImGui::SliderInt("##draws", &shown, 0, draws, "the first %d draws", ImGuiSliderFlags_AlwaysClamp);
+  shown = std::clamp(shown, 0, draws);
+  state.first_draws = shown == draws ? -1 : shown;
+  ImGui::TextDisabled("of %d; the last of them:", draws);
+  ImGui::SameLine();
+  ImGui::TextUnformatted(inspection.draw_text(shown - 1).c_str());
 }
 
 }  // namespace
@@ -41,25 +78,17 @@ void draw_inspect_panel(WindowState& state, const Inspection& inspection, Rect p
   ImGui::SetNextWindowSize({520 * scale, 0}, ImGuiCond_Appearing);
   if (ImGui::Begin("Inspect", &state.inspect,
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
-    const int draws = inspection.draws();
-    int shown = state.first_draws < 0 ? draws : std::min(state.first_draws, draws);
-    if (ImGui::Button("-")) --shown;
-    ImGui::SameLine();
-    if (ImGui::Button("+")) ++shown;
-    ImGui::SameLine();
-    if (ImGui::Button("all")) shown = draws;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(-1);
-    ImGui::SliderInt("##draws", &shown, 0, draws, "the first %d draws", ImGuiSliderFlags_AlwaysClamp);
-    shown = std::clamp(shown, 0, draws);
-    state.first_draws = shown == draws ? -1 : shown;
-    ImGui::TextDisabled("of %d; the last of them:", draws);
-    ImGui::SameLine();
-    ImGui::TextUnformatted(inspection.draw_text(shown - 1).c_str());
-    if (!state.paused) ImGui::TextDisabled("Space pauses: a still frame is easier to read.");
+    int map = static_cast<int>(state.map);
+    ImGui::SetNextItemWidth(150 * scale);
+    if (ImGui::Combo("show (E)", &map, map_names.data(), static_cast<int>(map_names.size()))) {
+      state.map = static_cast<Map>(map);
+    }
+    if (state.map == Map::none) draw_slider(state, inspection);
+    if (state.paused || state.map == Map::errors) draw_causes(inspection.report());
+    if (!state.paused) ImGui::TextDisabled("Space pauses: then the mouse tells a pixel's history.");
   }
   ImGui::End();
-  draw_history(inspection, picture, width, height);
+  if (state.paused) draw_history(inspection, picture, width, height);
 }
 
 }  // namespace app

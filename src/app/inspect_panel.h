@@ -1,5 +1,6 @@
 #pragma once
-// The inspector: a slider over the draws of a frame, and the history of the pixel under the mouse.
+// The inspector: maps of a frame, a slider over its draws, its wrong pixels by cause, and, while it is
+// paused, the history of the pixel under the mouse.
 
 #include "app/inspection.h"
 #include "app/layout.h"

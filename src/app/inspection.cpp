@@ -1,8 +1,9 @@
 #include "app/inspection.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
+
+#include "inspect/history.h"
+#include "inspect/image.h"
 
 namespace app {
 namespace {
@@ -25,16 +26,29 @@ const char* kind_word(const gpu::Primitive& p) {
   return "";
 }
 
-std::string hex(std::uint16_t pixel) {
-  std::array<char, 8> text{};
-  std::snprintf(text.data(), text.size(), "%04Xh", static_cast<unsigned>(pixel));
-  return text.data();
+inspect::Order order_of(scene::Visibility visibility) {
+  switch (visibility) {
+    case scene::Visibility::ot:
+    case scene::Visibility::sorted:
+      return inspect::Order::list;
+    case scene::Visibility::bsp:
+      return inspect::Order::exact;
+    case scene::Visibility::zbuffer:
+      return inspect::Order::depth;
+  }
+  return inspect::Order::list;
 }
 
-std::string event_text(const gpu::Event& event) {
-  if (event.rejected) return "lost the depth test";
-  const auto change = hex(event.before) + " -> " + hex(event.after);
-  return event.blended ? change + ", blended with " + hex(event.fragment) : change;
+// The top of `image`: what stands below the picture is a legend, which the panel shows instead.
+display::Picture picture_of(const inspect::Image& image, int height) {
+  display::Picture picture(image.width, std::min(image.height, height));
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const auto& pixel = image.at(x, y);
+      picture.at(x, y) = {pixel.r, pixel.g, pixel.b, 255};
+    }
+  }
+  return picture;
 }
 
 }  // namespace
@@ -66,6 +80,7 @@ scene::Result<bool> Inspection::update(const WindowState& state) {
   knobs_ = state.knobs;
   camera_ = state.camera;
   trace_.clear();
+  report_.reset();
   machine_->watch(&trace_);
   const auto drawn = machine_->draw(frame_, knobs_, camera_);
   machine_->watch(nullptr);
@@ -95,16 +110,38 @@ std::string Inspection::draw_text(int at) const {
   return describe_draw(draw, trace_.draws[draw]);
 }
 
-std::vector<std::string> Inspection::history(int x, int y) const {
-  const auto area = display::area_of(machine_->gpu().display());
-  std::vector<std::string> lines;
-  if (x < 0 || y < 0 || x >= area.width || y >= area.height) return lines;
-  const auto pixel = static_cast<std::uint32_t>(gpu::Vram::offset(area.x + x, area.y + y));
-  for (const auto& event : trace_.history) {
-    if (event.pixel != pixel) continue;
-    lines.push_back(describe_draw(event.draw, trace_.draws[event.draw]) + ": " + event_text(event));
+const inspect::Report& Inspection::report() const {
+  if (!report_) {
+    const auto area = display::area_of(machine_->gpu().display());
+    report_ = inspect::inspect(trace_, {.order = order_of(knobs_.visibility),
+                                        .frame = static_cast<std::uint32_t>(frame_),
+                                        .picture = {area.x, area.y, area.width, area.height}});
   }
-  return lines;
+  return *report_;
+}
+
+std::vector<std::string> Inspection::history(int x, int y) const {
+  return inspect::pixel_history(report(), trace_, x, y);
+}
+
+display::Picture Inspection::map(Map map) const {
+  const auto vram = machine_->gpu().vram().pixels();
+  const int height = machine_->picture().height;
+  switch (map) {
+    case Map::none:
+      break;
+    case Map::errors:
+      return picture_of(inspect::heatmap(report(), vram), height);
+    case Map::overdraw:
+      return picture_of(inspect::overdraw(report(), trace_), height);
+    case Map::owners:
+      return picture_of(inspect::ids(report(), trace_), height);
+    case Map::truth:
+      return picture_of(inspect::truth_image(report(), trace_, vram), height);
+    case Map::depth:
+      return picture_of(inspect::depth_image(report(), trace_), height);
+  }
+  return machine_->picture();
 }
 
 }  // namespace app

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "display/picture.h"
 #include "display/scanout.h"
 #include "gpu/trace.h"
+#include "inspect/report.h"
 
 namespace app {
 
@@ -30,8 +32,12 @@ class Inspection {
   [[nodiscard]] display::Picture after(int count) const;
   /// The draw number `at`, 0 .. draws() - 1, in words.
   [[nodiscard]] std::string draw_text(int at) const;
-  /// What happened at a pixel of the picture, a line an event, the first first.
+  /// Which pixels are wrong and why. Judged when first asked for after update().
+  [[nodiscard]] const inspect::Report& report() const;
+  /// What happened at a pixel of the picture, a line an event, and what it should show.
   [[nodiscard]] std::vector<std::string> history(int x, int y) const;
+  /// The frame seen as `map`; Map::none is its picture.
+  [[nodiscard]] display::Picture map(Map map) const;
 
  private:
   std::unique_ptr<Machine> machine_;
@@ -40,6 +46,7 @@ class Inspection {
   std::int64_t frame_ = -1;
   scene::Knobs knobs_;
   CameraOffset camera_;
+  mutable std::optional<inspect::Report> report_;
 };
 
 /// "draw 12: textured quad, semi-transparent, bucket 512": a drawing command for people.

@@ -63,6 +63,7 @@ class Window {
   Show show_;
   std::unique_ptr<Inspection> inspection_;  // only while it is asked for
   int inspected_scene_ = -1;
+  std::pair<Map, int> inspected_{Map::none, -1};  // what it last showed
   Screen left_, right_, vram_;
   Rect area_, picture_;  // for pictures; where the picture is
   float scale_ = 1;      // of letters
@@ -144,8 +145,17 @@ void Window::inspect() {
     inspection_ = std::make_unique<Inspection>(*show_.machine(), state_.knobs);
     inspected_scene_ = state_.scene;
   }
-  if (const auto drawn = inspection_->update(state_); !drawn) return say(drawn.error().text, true);
-  left_.show(renderer_.get(), state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws));
+  const auto drawn = inspection_->update(state_);
+  if (!drawn) return say(drawn.error().text, true);
+  const std::pair asked(state_.map, state_.first_draws);
+  if (!*drawn && asked == inspected_ && state_.map != Map::none) return;  // a map takes a while
+  inspected_ = asked;
+  if (state_.map != Map::none) {
+    left_.show(renderer_.get(), inspection_->map(state_.map));
+  } else {
+    left_.show(renderer_.get(),
+               state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws));
+  }
 }
 
 void Window::follow_state() {

@@ -29,6 +29,8 @@ constexpr std::array table{
     Binding{KeyAction::knobs, "F2", "K", "guide", "knobs: every approximation, live"},
     Binding{KeyAction::vram, "F3", "", "", "VRAM, live"},
     Binding{KeyAction::inspect, "F4", "I", "", "inspect: who drew a pixel, the first K draws alone"},
+    Binding{KeyAction::next_map, "E", "", "",
+            "inspect: next map of errors, overdraw, who drew it, truth, depth"},
     Binding{KeyAction::fullscreen, "F11", "", "", "full screen"},
     Binding{KeyAction::screenshot, "F12", "", "", "screenshot into the current folder"},
     Binding{KeyAction::quit, "Escape", "Q", "back", "quit"},
@@ -182,7 +184,12 @@ void handle(WindowState& state, Asked asked) {
       break;
     case KeyAction::inspect:
       toggle(state.inspect);
+      state.map = Map::none;
       state.first_draws = -1;
+      break;
+    case KeyAction::next_map:
+      state.inspect = true;
+      step(state.map, static_cast<int>(map_names.size()));
       break;
     case KeyAction::fullscreen:
       toggle(state.fullscreen);

@@ -2,6 +2,7 @@
 // What the window is showing, and what each key does to it. Pure: knows neither SDL nor drawing, so that
 // every key can be tested without a screen.
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +36,7 @@ enum class KeyAction : std::uint8_t {
   knobs,
   vram,
   inspect,
+  next_map,
   fullscreen,
   screenshot,
   quit,
@@ -42,6 +44,18 @@ enum class KeyAction : std::uint8_t {
 
 /// How fast frames come: with the screen, or at the console's NTSC or PAL rate.
 enum class Pace : std::uint8_t { vsync, hz60, hz50 };
+
+/// What an inspected frame shows in place of its picture.
+enum class Map : std::uint8_t {
+  none,
+  errors,    ///< wrong pixels in the colours of their causes
+  overdraw,  ///< how often each pixel was drawn
+  owners,    ///< a colour for each draw
+  truth,     ///< the picture as it should be
+  depth,     ///< 1/z of what should be seen
+};
+inline constexpr std::array map_names{"picture",     "errors by cause", "overdraw",
+                                      "who drew it", "truth",           "true depth"};
 
 /// One row of the key table: the keyboard, the game controller, the help overlay and `otter run --help` all
 /// read it. Key names are SDL's (SDL_GetKeyName), button names SDL's controller strings; "" means none.
@@ -83,6 +97,7 @@ struct WindowState {
   bool differences = false;
   bool help = false, panel = false, vram = false;
   bool inspect = false;  ///< a frame is watched: history under the mouse, the first draws alone
+  Map map = Map::none;   ///< with inspect
   int first_draws = -1;  ///< with inspect: only so many draws are shown; below 0: all
   bool fullscreen = false;
   bool screenshot = false;  ///< asked for; the window takes it and clears this
