@@ -173,4 +173,42 @@ TEST_SUITE("gpu") {
     CHECK(std::equal(picture.begin(), picture.end(), watched->vram().pixels().begin()));
     CHECK(writers == trace.last_writer);
   }
+
+  TEST_CASE("Watched through a z-buffer, lost fragments are told as rejected and change nothing") {
+    tests::RandomWords random(8);
+    const auto watched = std::make_unique<gpu::Gpu>(), free = std::make_unique<gpu::Gpu>();
+    gpu::Trace trace;
+    trace.keep_history = true;
+    watched->set_trace(&trace);
+    std::vector<std::uint32_t> words{0xe3000000, 0xe4000000 | 639 | 479 << 10};
+    for (int i = 0; i < 200; ++i) {
+      random.place(300);
+      random.polygon(words, 0x20 + random.below(32), true);
+    }
+    for (gpu::Gpu* one : {watched.get(), free.get()}) {
+      one->set_depth(gpu::DepthOptions{});
+      one->begin_frame();
+      one->gp0(words);
+      one->end_frame();
+    }
+    CHECK(std::equal(free->vram().pixels().begin(), free->vram().pixels().end(),
+                     watched->vram().pixels().begin()));
+    std::size_t rejected = 0, wrong = 0, different_depths = 0;
+    std::vector<std::uint32_t> writers(gpu::Vram::size);
+    for (const gpu::Event& event : trace.history) {
+      if (!event.rejected) writers[event.pixel] = event.draw + 1;
+      rejected += event.rejected ? 1U : 0U;
+      wrong += event.rejected && event.before != event.after ? 1U : 0U;
+      wrong += event.rejected && !trace.draws[event.draw].has_depth ? 1U : 0U;
+    }
+    for (int y = 0; y < gpu::Vram::height; ++y) {
+      for (int x = 0; x < gpu::Vram::width; ++x) {
+        if (watched->depth_plane()->stored(x, y) != free->depth_plane()->stored(x, y)) ++different_depths;
+      }
+    }
+    CHECK(rejected > 0);
+    CHECK(wrong == 0);
+    CHECK(different_depths == 0);
+    CHECK(writers == trace.last_writer);
+  }
 }
