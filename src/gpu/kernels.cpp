@@ -69,6 +69,7 @@ struct Constants {
   Palette16<D> palette;
   Rgb<D> colour{};  // of the lanes, relative to the first
   V<D> u{}, v{};
+  FixedDepths<D> depth{};
 };
 
 template <class D>
@@ -81,6 +82,7 @@ STAGE Constants<D> prepare(D d, Mode m, const Job& job) {
     c.u = ramp(d, job.texel.u.dx);
     c.v = ramp(d, job.texel.v.dx);
   }
+  if (m.depth && job.depth.is_fixed) c.depth = FixedDepths<D>::ramp(job.depth.fixed.dx);
   return c;
 }
 
@@ -113,7 +115,7 @@ STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, 
     walk.is_adjacent = job.page.side_by_side && walk.first_u + static_cast<std::uint32_t>(span.count) <= 256;
   }
   if (m.depth && job.depth.is_fixed) {
-    walk.fixed_depth = FixedDepths<D>::from(job.depth.fixed.at(span.dx, span.dy), job.depth.fixed.dx);
+    walk.fixed_depth = FixedDepths<D>::from(job.depth.fixed.at(span.dx, span.dy), constants.depth);
   } else if (m.depth) {
     walk.depth = depth_at(job.depth, span);
   }
@@ -213,7 +215,8 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Palette16<D>& palette, 
     nearest = to_mask16(d, nearer(d, job.depth, key, old));
     if constexpr (!Observer::is_on) {
       wanted = hn::And(wanted, nearest);
-      if (hn::AllFalse(d16, wanted)) return;
+      // Worth a branch that is hard to foretell only where a texel would have to be fetched.
+      if (m.surface.texture != Texture::none && hn::AllFalse(d16, wanted)) return;
     }
   }
 

@@ -294,7 +294,8 @@ STAGE V<D> computed_depth(D, const DepthJob& depth, double start, int column) {
 template <class D>
 struct FixedDepths {
   std::uint64_t first = 0;
-  static HWY_INLINE FixedDepths from(std::uint64_t start, std::uint64_t) { return {start}; }
+  static HWY_INLINE FixedDepths ramp(std::uint64_t) { return {}; }
+  static HWY_INLINE FixedDepths from(std::uint64_t start, const FixedDepths&) { return {start}; }
   static HWY_INLINE V<D> stored(const FixedDepths& f) {
     return V<D>(static_cast<std::int32_t>(static_cast<std::uint32_t>(f.first >> 32)));
   }
@@ -336,7 +337,7 @@ struct FixedDepths {
   using D64 = hn::Repartition<std::uint64_t, D>;
   hn::Vec<D64> low, high;
 
-  static HWY_INLINE FixedDepths from(std::uint64_t start, std::uint64_t dx) {
+  static HWY_INLINE FixedDepths ramp(std::uint64_t dx) {
     const D64 d;
     const hn::RebindToUnsigned<D> d32;
     constexpr auto half = hn::MaxLanes(d);
@@ -344,9 +345,12 @@ struct FixedDepths {
     const auto times = [&](std::uint64_t factor) {
       return hn::MulEven(lane, hn::Set(d32, static_cast<std::uint32_t>(factor)));
     };
-    const auto ramp64 = hn::Add(times(dx), hn::ShiftLeft<32>(times(dx >> 32)));
-    const auto first = hn::Add(hn::Set(d, start), ramp64);
+    const auto first = hn::Add(times(dx), hn::ShiftLeft<32>(times(dx >> 32)));
     return {first, hn::Add(first, hn::Set(d, dx * half))};
+  }
+  static HWY_INLINE FixedDepths from(std::uint64_t start, const FixedDepths& lanes) {
+    const auto first = hn::Set(D64(), start);
+    return {hn::Add(first, lanes.low), hn::Add(first, lanes.high)};
   }
   static HWY_INLINE V<D> stored(const FixedDepths& f) {
     const D d;
