@@ -27,6 +27,7 @@ struct Command {
 Action add_gte_check(CLI::App& sub);
 Action add_list(CLI::App& sub);
 Action add_record(CLI::App& sub);
+Action add_inspect(CLI::App& sub);
 Action add_render(CLI::App& sub);
 Action add_replay(CLI::App& sub);
 Action add_run(CLI::App& sub);
@@ -46,6 +47,11 @@ inline constexpr std::array commands{
             "  otter render cyclic -o cyclic.png --visibility zbuffer --frame 120 --size 640x480\n"
             "  otter render model.obj -o model.png --buckets 4096 --key farthest\n"
             "  otter render --all -d pictures\n"},
+    Command{"inspect", "which pixels a painter's order gets wrong, and why", add_inspect,
+            "  otter inspect corridor --frame 30 --heatmap heat.png\n"
+            "  otter inspect cyclic --pixel 160,120\n"
+            "  otter inspect crates --frames 0..99 --buckets 4096 --json report.json --max 200\n"
+            "  otter inspect recorded.psxgpu --frame 2 --visibility zbuffer --depth 16\n"},
     Command{"replay", "feed a GPU dump to the GPU", add_replay,
             "  otter replay frame.psxgpu --vram vram.png\n"
             "  otter replay frame.psxgpu.zst --list --until 20\n"

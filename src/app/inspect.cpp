@@ -1,0 +1,321 @@
+// otter inspect: which pixels are wrong, why, and between whom.
+
+#include "inspect/report.h"
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/dump_file.h"
+#include "app/machine.h"
+#include "app/open_scene.h"
+#include "app/options.h"
+#include "app/progress.h"
+#include "demos/demos.h"
+#include "display/png.h"
+#include "display/write_file.h"
+#include "gpu/dump.h"
+#include "inspect/history.h"
+#include "inspect/image.h"
+#include "inspect/json.h"
+#include "scene/accurate.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string source, frame, frames, pixel, json, heatmap, overdraw, ids, truth, depth_map;
+  std::int64_t max = -1;
+  scene::Knobs knobs;
+
+  [[nodiscard]] bool wants_picture() const {
+    return !heatmap.empty() || !overdraw.empty() || !ids.empty() || !truth.empty() || !depth_map.empty();
+  }
+};
+
+struct FrameRange {
+  std::uint32_t first = 0, last = 0;
+};
+
+// One frame drawn and watched: what the report and the pictures are made from.
+struct Watched {
+  inspect::Report report;
+  std::span<const std::uint16_t> vram;
+};
+
+// Where frames come from: a scene, or a dump.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual scene::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) = 0;
+  [[nodiscard]] virtual std::uint32_t first_frame() const = 0;
+};
+
+inspect::Order order_of(const scene::Knobs& knobs) {
+  if (knobs.visibility == scene::Visibility::zbuffer) return inspect::Order::depth;
+  return knobs.visibility == scene::Visibility::bsp ? inspect::Order::exact : inspect::Order::list;
+}
+
+class SceneSource : public Source {
+ public:
+  SceneSource(scene::Scene scene, const scene::Knobs& knobs)
+      : name_(scene.name), knobs_(knobs), machine_(std::move(scene), knobs) {}
+
+  scene::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
+    machine_.watch(&trace);
+    const auto stats = machine_.draw(number, knobs_);
+    machine_.watch(nullptr);
+    if (!stats) return tl::make_unexpected(stats.error());
+    if (machine_.gpu().canvas() != nullptr) {
+      return scene::fail("inspect judges the console's own pixels: expected position, texture, filter, colour, antialias, "
+                         "fog and resolution at the console's settings");
+    }
+    Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
+                    machine_.gpu().vram().pixels()};
+    add_drops(*stats, watched.report);
+    return watched;
+  }
+  [[nodiscard]] std::uint32_t first_frame() const override { return 0; }
+
+ private:
+  static void add_drops(const scene::FrameStats& stats, inspect::Report& report) {
+    for (std::size_t reason = 0; reason < scene::drop_reasons; ++reason) {
+      if (stats.dropped[reason] == 0) continue;
+      report.lint.push_back({"dropped", scene::drop_names[reason],
+                             std::to_string(stats.dropped[reason]) + " of " + std::to_string(stats.faces) +
+                                 " faces were left out before drawing"});
+    }
+    if (stats.splits != 0) {
+      report.lint.push_back({"splits", "", std::to_string(stats.splits) + " cuts were made to find an order"});
+    }
+  }
+
+  std::string name_;
+  scene::Knobs knobs_;
+  Machine machine_;
+};
+
+class DumpSource : public Source {
+ public:
+  DumpSource(std::string name, gpu::Dump dump, const scene::Knobs& knobs)
+      : name_(std::move(name)), dump_(std::move(dump)), order_(order_of(knobs)) {
+    gpu_.set_depth(scene::depth_options(knobs));
+  }
+
+  // Frame N of a dump lies between its VSync packets N-1 and N. Frames must be asked for in ascending order.
+  scene::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
+    if (number < 1 || (number > dump_.vsyncs && !(number == 1 && dump_.vsyncs == 0))) {
+      return scene::fail(name_ + ": --frame " + std::to_string(number) + ": expected 1.." +
+                         std::to_string(std::max<std::uint64_t>(1, dump_.vsyncs)) + ", the frames of this dump");
+    }
+    play_until(number - 1);
+    gpu_.set_trace(&trace);
+    const auto end = play_until(number);
+    gpu_.set_trace(nullptr);
+    if (end.polygons_without_depth != 0) {
+      return scene::fail(name_ + ": " + std::to_string(end.polygons_without_depth) +
+                             " polygons without depth, the first is drawing command " +
+                             std::to_string(end.first_without_depth),
+                         scene::Exit::failed);
+    }
+    return Watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}), gpu_.vram().pixels()};
+  }
+  [[nodiscard]] std::uint32_t first_frame() const override { return 1; }
+
+ private:
+  // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are fewer.
+  gpu::FrameEnd play_until(std::uint64_t vsyncs) {
+    gpu::Dump part;
+    part.gpu_version = dump_.gpu_version;
+    while (next_ < dump_.packets.size() && (seen_ < vsyncs || dump_.vsyncs == 0)) {
+      const gpu::Packet& packet = dump_.packets[next_++];
+      part.add(packet.type, dump_.payload(packet));
+      if (packet.type == gpu::PacketType::vsync) ++seen_;
+      if (vsyncs == 0) break;
+    }
+    return gpu::replay(part, gpu_);
+  }
+
+  std::string name_;
+  gpu::Dump dump_;
+  inspect::Order order_;
+  gpu::Gpu gpu_;
+  std::size_t next_ = 0;
+  std::uint64_t seen_ = 0;
+};
+
+std::optional<std::uint32_t> number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value > 1'000'000'000) return std::nullopt;
+  return value;
+}
+
+scene::Result<FrameRange> frames_of(const Options& options, std::uint32_t first) {
+  if (!options.frames.empty()) {
+    if (!options.frame.empty()) return scene::fail("--frames: expected no --frame beside it");
+    const auto dots = options.frames.find("..");
+    const auto a = number(std::string_view(options.frames).substr(0, dots));
+    const auto b = dots == std::string::npos ? std::nullopt : number(std::string_view(options.frames).substr(dots + 2));
+    if (!a || !b || *b < *a) return scene::fail("--frames: expected A..B with A <= B, got " + options.frames);
+    if (*b != *a && (options.wants_picture() || !options.pixel.empty())) {
+      return scene::fail("--frames: a picture or --pixel needs a single frame, got " + options.frames);
+    }
+    return FrameRange{*a, *b};
+  }
+  if (options.frame.empty()) return FrameRange{first, first};
+  const auto only = number(options.frame);
+  if (!only) return scene::fail("--frame: expected a number, got " + options.frame);
+  return FrameRange{*only, *only};
+}
+
+struct Position {
+  int x, y;
+};
+
+scene::Result<std::optional<Position>> pixel_of(const Options& options) {
+  if (options.pixel.empty()) return std::nullopt;
+  const auto comma = options.pixel.find(',');
+  const auto x = number(std::string_view(options.pixel).substr(0, comma));
+  const auto y = comma == std::string::npos ? std::nullopt : number(std::string_view(options.pixel).substr(comma + 1));
+  if (!x || !y || *x > 1023 || *y > 511) return scene::fail("--pixel: expected X,Y in the picture, got " + options.pixel);
+  return Position{static_cast<int>(*x), static_cast<int>(*y)};
+}
+
+// Told by its first bytes, so that any name will do.
+bool is_dump(const std::string& source) {
+  std::error_code ignored;
+  if (demos::find(source) != nullptr || !std::filesystem::is_regular_file(source, ignored)) return false;
+  const auto extension = std::filesystem::path(source).extension();
+  return extension != ".obj" && extension != ".x3d";
+}
+
+scene::Result<std::unique_ptr<Source>> open(const Options& options) {
+  if (is_dump(options.source)) {
+    const auto visibility = options.knobs.visibility;
+    if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
+      return scene::fail("--visibility: a dump is drawn in its own order; expected ot or zbuffer");
+    }
+    auto dump = read_dump(options.source);
+    if (!dump) return tl::make_unexpected(dump.error());
+    return std::make_unique<DumpSource>(options.source, std::move(*dump), options.knobs);
+  }
+  auto scene = open_scene(options.source);
+  if (!scene) return tl::make_unexpected(scene.error());
+  return std::make_unique<SceneSource>(std::move(*scene), options.knobs);
+}
+
+scene::Result<void> write_image(const std::string& path, const inspect::Image& image) {
+  display::Picture picture(image.width, image.height);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+    const inspect::Rgb c = image.pixels[i];
+    picture.pixels[i] = {c.r, c.g, c.b};
+  }
+  return display::write_png(path, picture);
+}
+
+scene::Result<void> write_pictures(const Options& options, const Watched& watched, const gpu::Trace& trace) {
+  const auto& report = watched.report;
+  const auto write = [](const std::string& path, auto&& make) {
+    return path.empty() ? scene::Result<void>{} : write_image(path, make());
+  };
+  return write(options.heatmap, [&] { return inspect::heatmap(report, watched.vram); })
+      .and_then([&] { return write(options.overdraw, [&] { return inspect::overdraw(report, trace); }); })
+      .and_then([&] { return write(options.ids, [&] { return inspect::ids(report, trace); }); })
+      .and_then([&] { return write(options.truth, [&] { return inspect::truth_image(report, trace, watched.vram); }); })
+      .and_then([&] { return write(options.depth_map, [&] { return inspect::depth_image(report, trace); }); });
+}
+
+scene::Result<void> print_history(const inspect::Report& report, const gpu::Trace& trace, Position at) {
+  const auto lines = inspect::pixel_history(report, trace, at.x, at.y);
+  if (lines.empty()) {
+    return scene::fail("--pixel: expected X,Y inside " + std::to_string(report.picture.width) + "x" +
+                       std::to_string(report.picture.height) + ", got " + std::to_string(at.x) + "," +
+                       std::to_string(at.y));
+  }
+  for (const auto& line : lines) std::puts(line.c_str());
+  return {};
+}
+
+scene::Result<int> write_json(const Options& options, const std::vector<inspect::Report>& reports) {
+  const std::string json = inspect::to_json(reports);
+  if (options.json == "-") {
+    std::fputs(json.c_str(), stdout);
+  } else if (!options.json.empty()) {
+    if (auto written = display::write_file(options.json, json); !written) return tl::make_unexpected(written.error());
+  }
+  return 0;
+}
+
+scene::Result<int> run(const Options& options) {
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  const auto pixel = pixel_of(options);
+  if (!pixel) return tl::make_unexpected(pixel.error());
+  const auto source = open(options);
+  if (!source) return tl::make_unexpected(source.error());
+  const auto frames = frames_of(options, (*source)->first_frame());
+  if (!frames) return tl::make_unexpected(frames.error());
+
+  gpu::Trace trace;
+  trace.keep_history = true;
+  std::vector<inspect::Report> reports;
+  std::uint64_t wrong = 0;
+  Progress progress("inspect", std::size_t{frames->last} - frames->first + 1);
+  for (std::uint32_t n = frames->first; n <= frames->last; ++n) {
+    trace.clear();
+    auto watched = (*source)->frame(n, trace);
+    if (!watched) return tl::make_unexpected(watched.error());
+    wrong += watched->report.wrong_pixels();
+    if (auto done = write_pictures(options, *watched, trace); !done) return tl::make_unexpected(done.error());
+    if (options.json != "-") std::fputs(inspect::to_text(watched->report).c_str(), stdout);
+    if (*pixel && options.json != "-") {
+      if (auto done = print_history(watched->report, trace, **pixel); !done) return tl::make_unexpected(done.error());
+    }
+    reports.push_back(std::move(watched->report));
+    progress.step();
+  }
+  if (auto done = write_json(options, reports); !done) return done;
+  if (options.max >= 0 && wrong > static_cast<std::uint64_t>(options.max)) {
+    return scene::fail("--max " + std::to_string(options.max) + ": " + std::to_string(wrong) + " pixels are wrong",
+                       scene::Exit::failed);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_inspect(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  const auto file = [&](const char* name, std::string& path, const char* help) {
+    sub.add_option(name, path, help)->type_name("FILE")->take_last();
+  };
+  sub.add_option("source", options->source, "a scene of `otter list`, an .obj or .x3d file, or a GPU dump")
+      ->type_name("SCENE|DUMP")
+      ->required();
+  sub.add_option("--frame", options->frame, "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]")
+      ->type_name("N")
+      ->take_last();
+  sub.add_option("--frames", options->frames, "several frames, both ends included")->type_name("A..B")->take_last();
+  file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
+  file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
+  file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");
+  file("--ids", options->ids, "PNG: a colour per primitive that is seen");
+  file("--truth", options->truth, "PNG: the picture as it should be");
+  file("--depth-map", options->depth_map, "PNG: 1/z of the true owners");
+  sub.add_option("--pixel", options->pixel, "tell the history of a pixel of the picture")->type_name("X,Y")->take_last();
+  sub.add_option("--max", options->max, "exit with 1 if more pixels are wrong")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
+      ->take_last();
+  add_knobs(sub, options->knobs);
+  return [options] { return run(*options); };
+}
+
+}  // namespace app
