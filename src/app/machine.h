@@ -45,8 +45,6 @@ class Machine {
   [[nodiscard]] scene::Scene scene_as_given() const;
   [[nodiscard]] const std::vector<std::string>& report() const { return builder_->report(); }
   [[nodiscard]] const gpu::Gpu& gpu() const { return gpu_; }
-  /// From now on `trace` is told what is drawn, and polygons carry their depths; nullptr: nobody watches.
-  void watch(gpu::Trace* trace) { gpu_.set_trace(trace); }
 
  private:
   scene::Scene scene_;
