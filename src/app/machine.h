@@ -32,6 +32,9 @@ class Machine {
   scene::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                         const CameraOffset& camera = {});
 
+  /// From the next draw() on every pixel written is noted in `trace`, until nullptr ends it.
+  void watch(gpu::Trace* trace) { gpu_.set_trace(trace); }
+
   /// What the display shows after draw().
   [[nodiscard]] const display::Picture& picture() const { return picture_; }
 
