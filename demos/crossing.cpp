@@ -1,5 +1,5 @@
-// Two walls that pass through each other: whichever is painted last hides half of the other that should be
-// seen.
+// Two walls that pass through each other: whichever is painted last hides half of
+// the other that should be seen.
 
 #include "demos/paint.h"
 #include "demos/scenes.h"

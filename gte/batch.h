@@ -1,7 +1,7 @@
 #pragma once
-// The batch door: the same results for arrays. Every value here is, bit for bit, what the single command
-// would leave in its register, for every input and every sf and lm; tests/gte holds each dispatch target to
-// that.
+// The batch door: the same results for arrays. Every value here is, bit for bit, what the
+// single command would leave in its register, for every input and every sf and lm; tests/gte
+// holds each dispatch target to that.
 //
 // All functions take the set-up registers (matrices, translations, offsets, H, DQA, DQB, ZSF, colours) from
 // `setup`, which they do not change. Outputs are plain arrays that the caller owns; a null pointer means "not
@@ -27,10 +27,10 @@ struct ProjectOut {
   std::uint16_t* sz = nullptr;    ///< SZ3, eye units
   std::uint32_t* flag = nullptr;  ///< FLAG, as RTPS on this vertex leaves it
   std::int16_t* ir0 = nullptr;    ///< IR0, depth cue, 0..1000h
-  std::uint32_t* z_20_12 =
-      nullptr;  ///< view-space z, unsigned 20.12: the sum before >> 12, limited to 0..FFFFFFFFh
-  std::uint8_t* fraction_x =
-      nullptr;  ///< bits 8..15 of OFX + q*IR1, whose bits 16.. are SX; also when SX was limited
+  /// View-space z, unsigned 20.12: the sum before >> 12, limited to 0..FFFFFFFFh.
+  std::uint32_t* z_20_12 = nullptr;
+  /// Bits 8..15 of OFX + q*IR1, whose bits 16.. are SX; also when SX was limited.
+  std::uint8_t* fraction_x = nullptr;
   std::uint8_t* fraction_y = nullptr;  ///< the same of OFY + q*IR2
 };
 
@@ -100,23 +100,21 @@ struct VectorOut {
   std::uint32_t* flag = nullptr;       ///< FLAG
 };
 
-/// MVMVA for every vector, which takes the place of the one `c` selects (V0..V2 or IR1..3). Reads what `c`
-/// selects.
+/// MVMVA for every vector, which takes the place of the one `c` selects (V0..V2 or
+/// IR1..3). Reads what `c` selects.
 void multiply(const Registers& setup, Command c, std::span<const Vertex> in, const VectorOut& out);
 
 // ---- dispatch
-// ------------------------------------------------------------------------------------------------------
 
-/// The instruction set in use: "AVX-512", "AVX2", "SSE4", or "scalar", which is the single commands in a
-/// loop.
+/// The instruction set in use: "AVX-512", "AVX2", "SSE4", or "scalar", which is
+/// the single commands in a loop.
 const char* batch_target();
 
 /// Those this processor and this build offer, fastest first; the last is "scalar".
 std::vector<const char*> batch_targets();
 
-/// Uses the one named instead of the fastest, until called again; an unknown name changes nothing
-/// and returns false. Not for use while another thread is inside the batch door: it is for tests and
-/// benchmarks.
+/// Uses the one named instead of the fastest, until called again; an unknown name changes nothing and returns
+/// false. Not for use while another thread is inside the batch door: it is for tests and benchmarks.
 bool use_batch_target(std::string_view name);
 
 }  // namespace gte

@@ -1,6 +1,6 @@
 #pragma once
-// Inside the batch door: one table of functions per instruction set, and the plain one that all others must
-// equal.
+// Inside the batch door: one table of functions per instruction set, and the plain
+// one that all others must equal.
 
 #include <cstddef>
 
@@ -27,8 +27,8 @@ struct LightDoors {
 extern const ProjectDoors plain_project_doors;
 extern const LightDoors plain_light_doors;
 
-/// Those of the instruction set that Highway has chosen; null where it has none that is faster than the plain
-/// loop.
+/// Those of the instruction set that Highway has chosen; null where it has none that
+/// is faster than the plain loop.
 const ProjectDoors* chosen_project_doors();
 const LightDoors* chosen_light_doors();
 

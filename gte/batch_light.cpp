@@ -354,8 +354,8 @@ void cue_triples(const Registers& r, std::span<const Colour> rgb, std::span<cons
   runs[c.sf() ? 1 : 0][out.flag != nullptr ? 1 : 0](LightSetup(r, c), rgb, ir0, out);
 }
 
-/// MVMVA: the rows that make the result, and those whose result the far colour's fault throws away but for
-/// its flags.
+/// MVMVA: the rows that make the result, and those whose result the far colour's fault
+/// throws away but for its flags.
 struct Product {
   Rows kept, thrown;
   V lowest;

@@ -15,8 +15,8 @@ HWY_BEFORE_NAMESPACE();
 namespace gte::HWY_NAMESPACE {
 #if GTE_HAS_SIMD
 
-/// The quotients q for which a linear depth cue p = DQB + q*DQA stays within 0..limit: an interval, as p is
-/// monotone.
+/// The quotients q for which a linear depth cue p = DQB + q*DQA stays within 0..limit:
+/// an interval, as p is monotone.
 struct CueRange {
   std::int32_t first = 1, last = 0;
   CueRange(std::int64_t slope, std::int64_t offset, std::int64_t limit) {
@@ -70,9 +70,9 @@ struct ProjectSetup {
     return fits_32_bits(r.rt[0], r.tr[0]) && fits_32_bits(r.rt[1], r.tr[1]) && fits_32_bits(r.rt[2], r.tr[2]);
   }
 
-  /// OFX, OFY, DQB far enough from their limits that (OFX + (q & 3)*IR) / 4 + (q / 4)*IR fits into 32 bits,
-  /// and a depth cue that overflows MAC0 for no quotient. No scene is otherwise; one that is goes vertex by
-  /// vertex.
+  /// OFX, OFY, DQB far enough from their limits that (OFX + (q & 3)*IR) / 4 + (q / 4)*IR fits
+  /// into 32 bits, and a depth cue that overflows MAC0 for no quotient. No scene is otherwise;
+  /// one that is goes vertex by vertex.
   static bool offsets_are_sane(const Registers& r) {
     const auto far_inside = [](std::int32_t v) { return std::abs(std::int64_t{v}) < 0x80000000 - 0x40000; };
     const std::int64_t last_cue = r.dqb.raw + std::int64_t{0x1ffff} * r.dqa.raw;
@@ -269,8 +269,8 @@ HWY_INLINE V ir0(const ProjectSetup& s, V q) {
   return limit(hn::ShiftRight<10>(offset_product(q, s.dqa, s.dqb)), hn::Zero(d), all(0x1000));
 }
 
-/// One vector of vertices from `in` to place `at` of the outputs. `extras`: any of the outputs few callers
-/// want.
+/// One vector of vertices from `in` to place `at` of the outputs. `extras`: any of
+/// the outputs few callers want.
 template <bool sf, Sums sums, bool want_flag, bool extras>
 HWY_INLINE void project_to(const ProjectSetup& s, const Vertex* in, const ProjectOut& out, std::size_t at) {
   const Projected p = project_block<sf, sums>(s, load_vertices(in));
@@ -341,8 +341,8 @@ void project(const Registers& r, std::span<const Vertex> in, const ProjectOut& o
                                                     extras, in, out);
 }
 
-/// NCLIP from packed screen positions of RTPT: (b - a) x (c - a); differences have 12 bits, so 16-bit ones
-/// do.
+/// NCLIP from packed screen positions of RTPT: (b - a) x (c - a); differences have
+/// 12 bits, so 16-bit ones do.
 HWY_INLINE V signed_area(V a, V b, V c) {
   const hn::Repartition<std::int16_t, D> d16;
   const auto minus = [&](V v, V w) { return hn::Sub(hn::BitCast(d16, v), hn::BitCast(d16, w)); };

@@ -42,8 +42,8 @@ HWY_INLINE V pair(std::int32_t low, std::int32_t high) {
   return all((static_cast<std::uint32_t>(high) << 16) | (static_cast<std::uint32_t>(low) & 0xffffu));
 }
 
-/// Each lane: sum + a.low * b.low + a.high * b.high, halves signed. Exact as long as the total fits into 32
-/// bits.
+/// Each lane: sum + a.low * b.low + a.high * b.high, halves signed. Exact as long as
+/// the total fits into 32 bits.
 HWY_INLINE V multiply_pairs(V a, V b, V sum) {
   const hn::Repartition<std::int16_t, D> d16;
   V unused = hn::Zero(d);

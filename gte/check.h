@@ -1,6 +1,6 @@
 #pragma once
-// Runs register vectors: rows of "these 64 registers, this command, those 64 registers", as captured on a
-// console.
+// Runs register vectors: rows of "these 64 registers, this command, those 64
+// registers", as captured on a console.
 
 #include <cstddef>
 #include <iosfwd>

@@ -91,8 +91,8 @@ Vector vector(const Three<std::int16_t>& v) { return {v.x, v.y, v.z}; }
 [[gnu::always_inline]] inline Result limited(Limits& limits, Three<std::int32_t> mac, std::int32_t lowest) {
   return {mac, {limits.ir(1, mac.x, lowest), limits.ir(2, mac.y, lowest), limits.ir(3, mac.z, lowest)}};
 }
-/// The same where it is the exception. Values in, values out: a reference would keep the usual case in memory
-/// too.
+/// The same where it is the exception. Values in, values out: a reference would keep
+/// the usual case in memory too.
 struct Exception {
   std::uint32_t bits = 0;
   Three<std::int16_t> ir{};
@@ -219,8 +219,8 @@ Sums from_bytes(Colour c) {
   return {std::int64_t{c.r} << 16, std::int64_t{c.g} << 16, std::int64_t{c.b} << 16};
 }
 
-/// Moves `in` toward the far colour by IR0. `in` is below 2^28, so neither sum comes near 44 bits unless FC
-/// does.
+/// Moves `in` toward the far colour by IR0. `in` is below 2^28, so neither sum comes
+/// near 44 bits unless FC does.
 [[gnu::always_inline]] inline Result cue(const Registers& r, Limits& limits, Command c, const Sums& in) {
   const auto distance = [&](std::size_t i) { return std::int64_t{r.fc[i].raw} * 4096 - in[i]; };
   Sums distances{distance(0), distance(1), distance(2)};

@@ -61,7 +61,6 @@ extern const std::array<CommandInfo, 64> command_table;
 void execute(Registers& r, Command c);
 
 // ---- coordinates
-// ---------------------------------------------------------------------------------------------------
 
 /// RTPS: rotates, translates and projects V0.
 ///     A(i) = TRi*1000h + RTi1*VX0 + RTi2*VY0 + RTi3*VZ0
@@ -78,8 +77,8 @@ void rtps(Registers& r, Command c = sdk::rtps);
 /// RTPT: RTPS for V0, V1, V2; only V2 makes MAC0 and IR0. SZ0 is then the SZ3 of before.
 void rtpt(Registers& r, Command c = sdk::rtpt);
 
-/// NCLIP: twice the signed area of the screen triangle, positive when clockwise with Y down. sf and lm mean
-/// nothing.
+/// NCLIP: twice the signed area of the screen triangle, positive when clockwise with Y
+/// down. sf and lm mean nothing.
 ///     MAC0 = SX0*(SY1-SY2) + SX1*(SY2-SY0) + SX2*(SY0-SY1)
 void nclip(Registers& r, Command c = sdk::nclip);
 
@@ -97,12 +96,10 @@ void avsz3(Registers& r, Command c = sdk::avsz3);
 void avsz4(Registers& r, Command c = sdk::avsz4);
 
 // ---- vectors
-// -------------------------------------------------------------------------------------------------------
 
 /// MVMVA: A(i) = Ti*1000h + Mi1*X + Mi2*Y + Mi3*Z with the matrix, vector and translation the word selects.
-/// Quirks  cv = 2 (far colour): the first product and the translation only leave their FLAG bits, the result
-/// is
-///         Mi2*Y + Mi3*Z.   mx = 3: rows (-R<<4, R<<4, IR0), (RT13 x3), (RT22 x3), R = red of RGBC.
+/// Quirks  cv = 2 (far colour): the first product and the translation only leave their FLAG bits, the
+///         result is Mi2*Y + Mi3*Z.   mx = 3: rows (-R<<4, R<<4, IR0), (RT13 x3), (RT22 x3), R = red of RGBC.
 void mvmva(Registers& r, Command c);
 
 /// The matrix and the translation that an MVMVA word selects.
@@ -123,13 +120,14 @@ void gpf(Registers& r, Command c = sdk::gpf);
 void gpl(Registers& r, Command c = sdk::gpl);
 
 // ---- light and depth cue
-// ------------------------------------------------------------------------------------------- The steps, each
-// leaving MAC1..3 and IR1..3:
+
+// The steps, each leaving MAC1..3 and IR1..3:
 //     light(k)   A(i) = LLMi1*VXk + LLMi2*VYk + LLMi3*VZk
 //     colour     A(i) = BKi*1000h + LCMi1*IR1 + LCMi2*IR2 + LCMi3*IR3
 //     modulate   A(i) = (RGBCi*IRi) << 4
-//     cue(in)    d = A(FCi*1000h - in_i), IRi = (d >> sh) limited to -8000h..7FFFh, then A(i) = in_i +
-//     IRi*IR0 push       the FIFO gets MACi >> 4 limited to 0..FFh, and CODE of RGBC
+//     cue(in)    d = A(FCi*1000h - in_i), IRi = (d >> sh) limited to -8000h..7FFFh,
+//                then A(i) = in_i + IRi*IR0
+//     push       the FIFO gets MACi >> 4 limited to 0..FFh, and CODE of RGBC
 // The triple forms do V0, V1, V2 one after the other; FLAG gathers all three.
 
 void ncs(Registers& r, Command c = sdk::ncs);    ///< light(0), colour, push

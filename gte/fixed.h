@@ -1,6 +1,6 @@
 #pragma once
-// Fixed point numbers by name. A coprocessor register has no type of its own; the format says what its bits
-// are worth.
+// Fixed point numbers by name. A coprocessor register has no type of its own; the format
+// says what its bits are worth.
 
 #include <compare>
 #include <concepts>
@@ -21,8 +21,8 @@ struct Fixed {
 
   Rep raw = 0;
 
-  /// A literal, rounded to the nearest raw value, halves away from zero. One that does not fit does not
-  /// compile.
+  /// A literal, rounded to the nearest raw value, halves away from zero. One that
+  /// does not fit does not compile.
   static consteval Fixed of(double value) {
     const double scaled = value * static_cast<double>(one) + (value < 0 ? -0.5 : 0.5);
     const auto rounded = static_cast<std::int64_t>(scaled);

@@ -1,9 +1,9 @@
 #pragma once
 // The whole state of the coprocessor: 32 data and 32 control registers, as plain fields of true width.
 //
-// Not modelled: the pipeline. A command happens at once; the one-instruction load delay of MFC2, the stall of
-// a read while a command runs and the few cycles LZCR and ORGB need after a write belong to the CPU that uses
-// this.
+// Not modelled: the pipeline. A command happens at once; the one-instruction load delay of MFC2,
+// the stall of a read while a command runs and the few cycles LZCR and ORGB need after a write
+// belong to the CPU that uses this.
 
 #include <algorithm>
 #include <array>
@@ -63,9 +63,9 @@ constexpr std::uint32_t with_error(std::uint32_t bits) {
 }
 }  // namespace flag
 
-/// Every register. Copy it, compare it, keep as many as you like; all zero to begin with [ours: power-up
-/// contents are not known]. SXYP, IRGB, ORGB and LZCR are not stored: read() and write() make them from the
-/// others.
+/// Every register. Copy it, compare it, keep as many as you like; all zero to begin with [ours:
+/// power-up contents are not known]. SXYP, IRGB, ORGB and LZCR are not stored: read() and
+/// write() make them from the others.
 struct Registers {
   // Data registers, cop2r0-31.
   std::array<Vertex, 3> v{};          ///< 0-5    VXY0 VZ0 VXY1 VZ1 VXY2 VZ2  model space; pad unused
@@ -111,7 +111,6 @@ constexpr std::uint32_t read(const Registers& r, unsigned number);
 constexpr void write(Registers& r, unsigned number, std::uint32_t value);
 
 // ---- how a 32-bit word is cut into fields
-// -------------------------------------------------------------------------
 
 namespace detail {
 

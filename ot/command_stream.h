@@ -29,8 +29,8 @@ class CommandStream {
   [[nodiscard]] std::span<const std::uint32_t> words() const { return words_; }
   /// All words so far, pixels included.
   [[nodiscard]] std::uint64_t length() const { return length_; }
-  /// Words of the command as far as is known: more once an upload has told its size; of a polyline the first
-  /// segment.
+  /// Words of the command as far as is known: more once an upload has told its size; of
+  /// a polyline the first segment.
   [[nodiscard]] std::uint64_t needed() const { return needed_; }
   /// A command has begun and not ended.
   [[nodiscard]] bool is_open() const { return open_; }

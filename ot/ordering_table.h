@@ -64,9 +64,9 @@ class BasicOrderingTable {
   }
   void insert(std::uint32_t bucket, std::uint32_t node) { insert(bucket, node, node); }
 
-  /// Puts a whole table into a bucket: a model that sorts by itself and lies in the scene as one. Call it
-  /// after inner.clear() and before anything is inserted into `inner`, whose packets then find their way by
-  /// themselves.
+  /// Puts a whole table into a bucket: a model that sorts by itself and lies in the scene as
+  /// one. Call it after inner.clear() and before anything is inserted into `inner`, whose
+  /// packets then find their way by themselves.
   void insert(std::uint32_t bucket, const BasicOrderingTable& inner) {
     assert(tag::Next::get(at(inner.entry(0))) == tag::end);
     insert(bucket, inner.head(), inner.entry(0));

@@ -1,6 +1,6 @@
 #pragma once
-// Builders of GP0 packets: plain values in, words out, and back. The arena puts payloads with their tags into
-// main RAM.
+// Builders of GP0 packets: plain values in, words out, and back. The arena puts payloads
+// with their tags into main RAM.
 //
 // Every encode writes word_count(value) words to the front of `out`, which must be that long, and returns
 // the number. Every decode takes the words of one complete command.

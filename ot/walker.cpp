@@ -5,8 +5,8 @@
 namespace ot {
 namespace {
 
-/// The tags of a list one by one. Stands on a tag or, when `fault` is set or the list is at its end, before
-/// it.
+/// The tags of a list one by one. Stands on a tag or, when `fault` is set or the
+/// list is at its end, before it.
 template <class Links>
 struct Steps {
   std::span<const std::uint32_t> memory;

@@ -7,8 +7,8 @@
 
 namespace app {
 
-/// "ordering table, 1024 buckets, average z" or "z-buffer, 24 bits, hyperbolic": the mode and what it depends
-/// on.
+/// "ordering table, 1024 buckets, average z" or "z-buffer, 24 bits, hyperbolic": the
+/// mode and what it depends on.
 std::string describe(const scene::Knobs& knobs);
 
 /// A knob's value in the words of the command line.

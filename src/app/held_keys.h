@@ -23,8 +23,8 @@ class HeldKeys {
  public:
   static constexpr double tap_seconds = 0.2;
 
-  /// True if the key moves the camera as soon as it is down, so that it must not be looked up in the key
-  /// table.
+  /// True if the key moves the camera as soon as it is down, so that it must not be
+  /// looked up in the key table.
   bool press(std::string_view key, double now);
   /// True if this ends a tap: the key's meaning in the key table counts.
   bool release(std::string_view key, double now);

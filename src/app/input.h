@@ -17,8 +17,8 @@ class Input {
   /// Keys, buttons, closing, and the mouse where ImGui does not want it. `picture`: where the picture is.
   void take(const SDL_Event& event, double now, Rect picture, WindowState& state);
 
-  /// Moves the camera by what was held for `passed` seconds up to `now`. `machine` may be null: no flying
-  /// then.
+  /// Moves the camera by what was held for `passed` seconds up to `now`. `machine`
+  /// may be null: no flying then.
   void move_camera(double now, double passed, const Machine* machine, WindowState& state) const;
 
  private:

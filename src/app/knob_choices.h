@@ -1,6 +1,6 @@
 #pragma once
-// What a panel can offer for each knob: the words of knob_table(), with the open ones (antialias, size)
-// spelled out.
+// What a panel can offer for each knob: the words of knob_table(), with the open ones
+// (antialias, size) spelled out.
 
 #include <cstdint>
 #include <optional>
@@ -24,8 +24,8 @@ std::optional<KnobRange> knob_range(const scene::KnobInfo& knob);
 /// False: with these knobs the setting changes nothing (the bits of a depth that is not there).
 bool knob_matters(const scene::KnobInfo& knob, const scene::Knobs& knobs);
 
-/// "otter render crates --frame 120 --buckets 64 -o picture.png": what draws the same picture without the
-/// window.
+/// "otter render crates --frame 120 --buckets 64 -o picture.png": what draws the
+/// same picture without the window.
 std::string render_command(const std::string& scene, std::int64_t frame, const scene::Knobs& knobs);
 
 }  // namespace app

@@ -68,8 +68,8 @@ void widget(scene::Knobs& knobs, const scene::KnobInfo& knob) {
   distance(knobs, knob, *range, label.c_str());
 }
 
-// A row: the name (in the accent colour when not the console's; click: back to the console's), then the
-// widget.
+// A row: the name (in the accent colour when not the console's; click: back to the
+// console's), then the widget.
 void row(scene::Knobs& knobs, const scene::KnobInfo& knob, bool matters) {
   static const scene::Knobs console;
   const auto initial = knob.get(console);

@@ -124,8 +124,8 @@ void print_lint(const std::vector<inspect::LintItem>& items) {
   }
 }
 
-/// Draws a list that is known to be good. There is no drawing area before the first list sets one: all of
-/// VRAM.
+/// Draws a list that is known to be good. There is no drawing area before the first
+/// list sets one: all of VRAM.
 gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head,
                    const std::optional<inspect::TableRange>& table, gpu::Gpu& gpu, gpu::Trace& trace,
                    Buckets& buckets) {

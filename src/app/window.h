@@ -26,8 +26,8 @@ struct WindowOptions {
   std::string screenshot;           ///< write the last frame of the window there; empty: do not
 };
 
-/// Opens the window and returns when it is closed. Error: no display, or the first scene cannot be read (exit
-/// 2).
+/// Opens the window and returns when it is closed. Error: no display, or the first
+/// scene cannot be read (exit 2).
 scene::Result<int> run_window(const WindowOptions& options);
 
 }  // namespace app

@@ -27,8 +27,8 @@ struct Area {
 /// The area that the GPU's display registers select.
 [[nodiscard]] Area area_of(const gpu::Display& display);
 
-/// One VRAM pixel. 5 bits become 8 as v << 3 | v >> 2, so that 0 stays 0 and 31 becomes 255; bit 15 is not
-/// shown.
+/// One VRAM pixel. 5 bits become 8 as v << 3 | v >> 2, so that 0 stays 0 and 31
+/// becomes 255; bit 15 is not shown.
 [[nodiscard]] constexpr Rgba expand(std::uint16_t pixel) {
   const auto channel = [pixel](int shift) {
     const unsigned v = (static_cast<unsigned>(pixel) >> shift) & 31U;

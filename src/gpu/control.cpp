@@ -87,8 +87,8 @@ void Gpu::gp1(std::uint32_t word) {
   update_skipped_rows();
 }
 
-/// GP1(10h): a register, by the low 4 bits of the word, to be read through GPUREAD; other numbers leave the
-/// latch alone.
+/// GP1(10h): a register, by the low 4 bits of the word, to be read through GPUREAD; other
+/// numbers leave the latch alone.
 void Gpu::latch_register(std::uint32_t number) {
   constexpr std::uint32_t gpu_version = 2;
   const DrawState& state = current_.state;

@@ -21,8 +21,8 @@ constexpr std::uint32_t largest_code(DepthFormat format) {
   }
 }
 
-/// 0 at near, 1 at far; the other way round when reversed, computed so that small results keep their
-/// precision.
+/// 0 at near, 1 at far; the other way round when reversed, computed so that small
+/// results keep their precision.
 double unit_depth(const DepthOptions& o, double z) {
   const double range = o.far_z - o.near_z;
   if (o.mapping == DepthMapping::linear) return (o.reversed ? o.far_z - z : z - o.near_z) / range;

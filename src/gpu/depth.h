@@ -37,8 +37,8 @@ std::uint32_t stored_depth(const DepthOptions& options, double z);
 /// One key per VRAM pixel. A key orders as "nearer is smaller" for every format, reversed or not, so one
 /// unsigned comparison serves all; `empty` loses to every fragment, however far.
 ///
-/// bits32 uses every code, so its last one also reads as empty: of two fragments at or behind far the later
-/// wins.
+/// bits32 uses every code, so its last one also reads as empty: of two fragments at
+/// or behind far the later wins.
 class DepthPlane {
  public:
   static constexpr std::uint32_t empty = 0xffffffff;

@@ -10,8 +10,8 @@
 
 namespace gpu {
 
-/// Each polygon keeps the draw state it was issued under, its palette included: later commands may change
-/// both.
+/// Each polygon keeps the draw state it was issued under, its palette included:
+/// later commands may change both.
 class DepthQueue {
  public:
   struct Entry {

@@ -22,8 +22,8 @@ struct Positions {
   }
 };
 
-/// What is affine on the screen: the hyperbolic depth itself, or 1/z. Not saturated: that is for each pixel
-/// to do.
+/// What is affine on the screen: the hyperbolic depth itself, or 1/z. Not saturated:
+/// that is for each pixel to do.
 double affine_quantity(const DepthOptions& o, std::uint32_t z_20_12) {
   const double z = std::max(z_20_12, 1U) / 4096.0, range = o.far_z - o.near_z;
   if (o.mapping == DepthMapping::linear) return 1 / z;

@@ -1,6 +1,6 @@
 #pragma once
-// GPU dumps: everything a program sent to the two ports of the GPU, in packets. Read, checked, replayed,
-// written.
+// GPU dumps: everything a program sent to the two ports of the GPU, in packets.
+// Read, checked, replayed, written.
 //   [ps1dev/standards, GPUDUMP.md, revision v1r1]
 // The older form that emulators wrote has a 14-byte magic, so that its packets lie unaligned, and counts its
 // GPU versions from 0.

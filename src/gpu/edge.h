@@ -9,9 +9,9 @@
 
 namespace gpu {
 
-/// floor(2^32 / height). An edge of slope dx / height then goes wrong by at most 1023 * 511 / 2^32 < 2^-12
-/// pixel, less than the 2^-11 that separate it from the next column; tests/gpu holds it to the exact rule for
-/// every slope.
+/// floor(2^32 / height). An edge of slope dx / height then goes wrong by at most 1023 * 511 /
+/// 2^32 < 2^-12 pixel, less than the 2^-11 that separate it from the next column; tests/gpu holds
+/// it to the exact rule for every slope.
 inline constexpr auto reciprocals = [] {
   std::array<std::int64_t, 512> table{};
   for (std::int64_t height = 1; height < 512; ++height) {

@@ -44,8 +44,8 @@ void Gpu::draw_with_depth() {
   ++frame_.queued;
 }
 
-/// Also before a fill, a copy or an upload: they would change what the queued polygons lie on, or their
-/// texture.
+/// Also before a fill, a copy or an upload: they would change what the queued
+/// polygons lie on, or their texture.
 void Gpu::draw_queue() {
   if (!queue_ || queue_->is_empty()) return;
   queue_->sort();

@@ -1,6 +1,6 @@
 #pragma once
-// The console's depthless 2D GPU: words in, pixels out, to the bit. [psx-spx, GPU; hardware captures of
-// ps1-tests]
+// The console's depthless 2D GPU: words in, pixels out, to the bit. [psx-spx, GPU;
+// hardware captures of ps1-tests]
 //
 // Beyond the console, and only when asked: a z-buffer fed by annotation words, and a trace of who wrote what.
 // Not modelled: time (every command completes at once, so the FIFO is always empty), the texture cache
@@ -66,8 +66,8 @@ class Gpu {
   [[nodiscard]] const Display& display() const { return display_; }
   [[nodiscard]] const DrawState& state() const { return current_.state; }
 
-  /// Polygons draw inside these limits only; nothing: everywhere. The columns stay the caller's, until the
-  /// next call.
+  /// Polygons draw inside these limits only; nothing: everywhere. The columns stay the
+  /// caller's, until the next call.
   void set_limits(std::optional<Limits> limits) { limits_ = limits; }
 
   /// A vertical blank: an interlaced picture goes on with its other field.
@@ -80,8 +80,8 @@ class Gpu {
   /// Depth (20.12) of polygons that bring none; nothing: they are counted as polygons without depth. The
   /// caller may change it before every node it feeds.
   void set_default_depth(std::optional<std::uint32_t> z) { default_depth_ = z; }
-  /// z-buffer: empties the depth plane, forgets the queue. Otherwise does nothing but restart command
-  /// numbers.
+  /// z-buffer: empties the depth plane, forgets the queue. Otherwise does nothing
+  /// but restart command numbers.
   void begin_frame();
   /// z-buffer: draws the queued semi-transparent polygons, far to near.
   FrameEnd end_frame();

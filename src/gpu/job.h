@@ -48,9 +48,9 @@ struct FixedDepth {
   }
 };
 
-/// Depth of a triangle. With e[i] the doubled area opposite vertex i, the affine quantity is sum(e[i] *
-/// weight[i]): the depth itself (hyperbolic) or 1/z (linear). All three are of one sign inside, so nothing
-/// cancels.
+/// Depth of a triangle. With e[i] the doubled area opposite vertex i, the affine quantity is
+/// sum(e[i] * weight[i]): the depth itself (hyperbolic) or 1/z (linear). All three are of one
+/// sign inside, so nothing cancels.
 struct DepthJob {
   std::uint32_t* keys;
   FixedDepth fixed;  ///< only if is_fixed, and then nothing of the next three groups

@@ -37,8 +37,8 @@ const BlockOperations& block_operations();
 
 /// The dispatch target in use: "AVX3", "AVX2", "SSE4", "SCALAR" or what Highway calls another processor's.
 std::string_view target_name();
-/// Targets this processor runs, best first; one of them for all later drawing (tests, benchmarks). False:
-/// unknown.
+/// Targets this processor runs, best first; one of them for all later drawing (tests,
+/// benchmarks). False: unknown.
 std::vector<std::string_view> target_names();
 bool use_target(std::string_view name);
 

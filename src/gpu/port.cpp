@@ -139,8 +139,8 @@ void Gpu::set_attribute(std::uint32_t word) {
   }
 }
 
-/// E7h-EFh: kept until the next polygon. A code of the range that means nothing is ignored like on the
-/// console.
+/// E7h-EFh: kept until the next polygon. A code of the range that means nothing is
+/// ignored like on the console.
 void Gpu::annotate(std::uint32_t word) {
   namespace annotation = gp0::annotation;
   const auto opcode = gp0::Opcode::get(word);

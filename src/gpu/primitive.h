@@ -1,6 +1,6 @@
 #pragma once
-// A drawing command after decoding: what the words said, in VRAM coordinates, with the state it was drawn
-// under.
+// A drawing command after decoding: what the words said, in VRAM coordinates, with
+// the state it was drawn under.
 
 #include <array>
 #include <cstdint>

@@ -13,8 +13,8 @@
 
 namespace gpu {
 
-/// Which fragments of a polygon with depth are drawn. Opacity is a texel's matter: one polygon can have both
-/// kinds.
+/// Which fragments of a polygon with depth are drawn. Opacity is a texel's matter: one
+/// polygon can have both kinds.
 enum class Pass : std::uint8_t {
   console,           ///< all, untested: there is no z-buffer, or the primitive has no depth
   opaque,            ///< those that let no light through; tested and stored

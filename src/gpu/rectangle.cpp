@@ -1,5 +1,5 @@
-// Rectangles and sprites: triangles' span kernels with gradients of one texel a pixel. Never dithered, never
-// shaded.
+// Rectangles and sprites: triangles' span kernels with gradients of one texel a pixel.
+// Never dithered, never shaded.
 
 #include <algorithm>
 

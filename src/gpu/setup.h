@@ -1,6 +1,6 @@
 #pragma once
-// From a decoded primitive to what a kernel needs: its mode, its constants, and whether it may be drawn in
-// blocks.
+// From a decoded primitive to what a kernel needs: its mode, its constants, and
+// whether it may be drawn in blocks.
 
 #include <array>
 #include <cstdint>
@@ -43,8 +43,8 @@ bool samples_what_it_draws(const DrawState& state, const Box& drawn);
 /// Whether a row of pixels reads a row of texels, one by one: sprites, and polygons drawn like sprites.
 bool has_adjacent_texels(const Job& job, Texture texture);
 
-/// Runs the kernel; or, where that is called for, the body that draws one pixel after the other or the
-/// watched one.
+/// Runs the kernel; or, where that is called for, the body that draws one pixel after
+/// the other or the watched one.
 void run(const Surface& surface, const Mode& mode, const Job& job, std::span<const Span> spans,
          bool in_order);
 

@@ -24,8 +24,8 @@ struct Event {
   bool rejected = false;       ///< lost the depth test: `after` is `before`, the pixel was not touched
 };
 
-/// The caller owns it and keeps it alive while a Gpu has it. The Gpu only appends and overwrites; `clear`
-/// begins anew.
+/// The caller owns it and keeps it alive while a Gpu has it. The Gpu only appends and
+/// overwrites; `clear` begins anew.
 struct Trace {
   std::vector<std::uint32_t> last_writer = std::vector<std::uint32_t>(Vram::size);  ///< draw + 1; 0: nobody
   bool keep_history = false;

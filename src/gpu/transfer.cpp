@@ -12,8 +12,8 @@ namespace gpu {
 
 namespace {
 
-/// f(x, y, first, count) for the one or two pieces of a row that lie inside VRAM; first counts from the row's
-/// start.
+/// f(x, y, first, count) for the one or two pieces of a row that lie inside VRAM; first
+/// counts from the row's start.
 template <class F>
 void for_each_piece(int x, int y, int count, F&& f) {
   x &= Vram::width - 1;

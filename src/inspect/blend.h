@@ -1,6 +1,6 @@
 #pragma once
-// The four semi-transparency modes on whole pixels: what the rasterizer does, for pictures of what it should
-// have done.
+// The four semi-transparency modes on whole pixels: what the rasterizer does, for
+// pictures of what it should have done.
 
 #include <algorithm>
 #include <cstdint>

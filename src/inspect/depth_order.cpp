@@ -9,9 +9,9 @@
 namespace inspect {
 namespace {
 
-// |x|, |y| <= 2^20, so differences are at most 2^21, a weight and D at most 2^43; z is below 2^32. A side of
-// the comparison, (w0 z1 z2 + w1 z0 z2 + w2 z0 z1) * D' z0' z1' z2', stays below 3 * 2^43+64 * 2^43+96 <
-// 2^248.
+// |x|, |y| <= 2^20, so differences are at most 2^21, a weight and D at most 2^43; z is below
+// 2^32. A side of the comparison, (w0 z1 z2 + w1 z0 z2 + w2 z0 z1) * D' z0' z1' z2', stays
+// below 3 * 2^43+64 * 2^43+96 < 2^248.
 using Wide = boost::multiprecision::int256_t;
 static_assert(corner_limit == 1 << 20 && 2 + (43 + 64) + (43 + 96) < 256);
 

@@ -40,8 +40,8 @@ Surfaces::Surfaces(const gpu::Trace& trace) {
   }
 }
 
-// A triangle is at most 1023 columns wide and 511 rows high, so exactly one sample of its box lands on the
-// pixel.
+// A triangle is at most 1023 columns wide and 511 rows high, so exactly one sample
+// of its box lands on the pixel.
 Surfaces::Sample Surfaces::sample(const Surface& surface, std::uint32_t pixel) {
   const int x = static_cast<int>(pixel % Vram::width), y = static_cast<int>(pixel / Vram::width);
   return {surface.left + ((x - surface.left) & (Vram::width - 1)),

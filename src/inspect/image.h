@@ -37,8 +37,8 @@ Rgb colour_of(Cause cause);
 /// 512 pixels as the frame left them. A wrong pixel without a cause (visibility bsp) is white.
 Image heatmap(const Report& report, std::span<const std::uint16_t> vram);
 
-/// How often each pixel was written, or would have been but for the depth test: black 0, blue 1 .. red 8 and
-/// more.
+/// How often each pixel was written, or would have been but for the depth test: black
+/// 0, blue 1 .. red 8 and more.
 Image overdraw(const Report& report, const gpu::Trace& trace);
 
 /// A colour per draw, that of the last writer; black: nobody. Neighbouring numbers have unlike colours.

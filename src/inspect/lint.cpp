@@ -108,8 +108,8 @@ class ListLinter {
     }
   }
 
-  // A stray insertion made the word beside the table a tag: no payload, and a link to a packet nobody else
-  // links to.
+  // A stray insertion made the word beside the table a tag: no payload, and a link to a
+  // packet nobody else links to.
   void beside_table() {
     for (const int beside : {-4, -3, -2, -1, 0, 1, 2, 3}) {
       const std::int64_t bucket = beside < 0 ? beside : std::int64_t{table_->length} + beside;

@@ -9,8 +9,8 @@ namespace {
 constexpr int quarter = 1024;  // table steps in a quarter turn
 constexpr int fraction_bits = 30;
 
-// sin x by its series, x and the result with 30 fraction bits: integers only, so every compiler makes this
-// table.
+// sin x by its series, x and the result with 30 fraction bits: integers only, so
+// every compiler makes this table.
 constexpr std::int64_t series_sine(std::int64_t x) {
   std::int64_t sum = 0;
   std::int64_t term = x;

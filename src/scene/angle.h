@@ -2,8 +2,8 @@
 // Angles and numbers that come out the same on every machine. std::sin differs between libraries, and the
 // cast of a large float to an integer is undefined; frames must be neither.
 //
-// Not modelled: the console library's 4096-step angles. Angles here are fractions of a turn in floating
-// point.
+// Not modelled: the console library's 4096-step angles. Angles here are fractions
+// of a turn in floating point.
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,8 @@
 namespace scene {
 namespace {
 
-// The GPU draws a quad as triangles 0,1,2 and 1,2,3, each complete in itself: two packets draw the same
-// pixels.
+// The GPU draws a quad as triangles 0,1,2 and 1,2,3, each complete in itself: two
+// packets draw the same pixels.
 Primitive half_of(const Primitive& quad, std::size_t first) {
   Primitive half = quad;
   half.count = 3;

@@ -39,8 +39,8 @@ ClipVertex Clipper::cut(const Plane& plane, const ClipVertex& a, const ClipVerte
   if (&plane == &planes_[0]) p.z = near_z_;
   p.z = std::clamp(p.z, near_z_, farthest);
   if (whole_) {
-    // The point moves along its line of sight to the next whole z, so that only the rounding of x and y
-    // shows.
+    // The point moves along its line of sight to the next whole z, so that only the
+    // rounding of x and y shows.
     const double z = std::floor(p.z + 0.5);
     p = {std::floor(p.x * z / p.z + 0.5), std::floor(p.y * z / p.z + 0.5), z};
   }

@@ -93,8 +93,8 @@ struct ScreenPolygon {
 /// One scene, ready to be built frame by frame. Keeps its own copy of the world, which it animates.
 class FrameBuilder {
  public:
-  /// Scales and packs the textures, turns meshes into 16-bit vertices. Never fails: what did not fit is in
-  /// report().
+  /// Scales and packs the textures, turns meshes into 16-bit vertices. Never fails:
+  /// what did not fit is in report().
   FrameBuilder(const Scene& scene, const Knobs& knobs);
   ~FrameBuilder();
   FrameBuilder(FrameBuilder&&) noexcept;
@@ -125,8 +125,8 @@ class FrameBuilder {
   /// Puts the next nearer list into `ram`; needs frame.nearer_lists > 0 and the knobs of build().
   [[nodiscard]] Result<void> next(Frame& frame, ot::MainRam& ram);
 
-  /// Visibility sorted and bsp: marks of the list that is in RAM now, in list order. Valid until the next
-  /// build().
+  /// Visibility sorted and bsp: marks of the list that is in RAM now, in list order.
+  /// Valid until the next build().
   [[nodiscard]] std::vector<NodeMark> marks() const;
 
   /// What build() would insert, in that order, lines left out. For visibility bsp and for inspection.

@@ -79,12 +79,12 @@ struct KnobInfo {
 /// The table, in the order in which help prints it.
 std::span<const KnobInfo> knob_table();
 
-/// Sets one knob by name. Error: unknown name, or a value outside what the table allows (both named in the
-/// text).
+/// Sets one knob by name. Error: unknown name, or a value outside what the table
+/// allows (both named in the text).
 Result<void> set_knob(Knobs& knobs, std::string_view name, std::string_view value);
 
-/// Knobs that contradict each other (near >= far) or cannot be met by this build. Call after the last
-/// set_knob.
+/// Knobs that contradict each other (near >= far) or cannot be met by this build.
+/// Call after the last set_knob.
 Result<void> check_knobs(const Knobs& knobs);
 
 }  // namespace scene

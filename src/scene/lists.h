@@ -57,8 +57,8 @@ class BucketSizes {
       : rule_(rule), style_(style), bytes_(rule.length) {}
   void operator()(const Primitive& p) { add(p, rule_.of(p)); }
   void add(const Primitive& p, std::uint32_t bucket);
-  /// Ranges far to near, each at most `available` bytes. Error: the number of a bucket that is larger than
-  /// that.
+  /// Ranges far to near, each at most `available` bytes. Error: the number of a
+  /// bucket that is larger than that.
   [[nodiscard]] Result<std::vector<BucketRange>> ranges(std::uint32_t available) const;
 
  private:
@@ -79,8 +79,8 @@ class ListBuilder {
   /// Links everything; afterwards the list can be walked from head().
   void end();
 
-  /// Visibility sorted and bsp, after end(): a primitive's bucket and the first tag of its nodes, in list
-  /// order.
+  /// Visibility sorted and bsp, after end(): a primitive's bucket and the first tag
+  /// of its nodes, in list order.
   [[nodiscard]] std::span<const ot::Keyed> sorted() const { return sorted_.items(); }
 
   [[nodiscard]] bool is_full() const { return full_; }

@@ -56,9 +56,9 @@ Result<LoadedScene> parse_x3d(std::string_view bytes, const Source& source);
 /// A whole file. Error (bad_input): not a regular file, unreadable, more than `most` bytes.
 Result<std::string> read_file(const std::filesystem::path& file, std::size_t most);
 
-/// The file `reference` names from inside a scene file, if it is there, regular, and in `folder` or below it
-/// (symbolic links followed). Back slashes are slashes; a path that leads elsewhere is tried by its last
-/// part.
+/// The file `reference` names from inside a scene file, if it is there, regular, and in
+/// `folder` or below it (symbolic links followed). Back slashes are slashes; a path that leads
+/// elsewhere is tried by its last part.
 Result<std::filesystem::path> resolve(const std::filesystem::path& folder, std::string_view reference);
 
 }  // namespace scene

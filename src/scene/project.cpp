@@ -174,8 +174,8 @@ ProjectedPoint project_point(const Placement& placement, glm::dvec3 view) {
     FloatingMap<double>(placement).to_screen(view, out);
     return out;
   }
-  // RTPS with an identity matrix leaves the point as it is; z stands half in the vertex, half in TRZ, to fit
-  // 16 bits.
+  // RTPS with an identity matrix leaves the point as it is; z stands half in the vertex,
+  // half in TRZ, to fit 16 bits.
   gte::Registers r = placement.registers;
   r.rt = {};
   for (std::size_t i = 0; i < 3; ++i) r.rt[i][i].raw = 4096;

@@ -18,8 +18,8 @@ namespace scene {
 namespace outcode {
 inline constexpr std::uint8_t left = 1, right = 2, above = 4, below = 8;
 inline constexpr std::uint8_t sides = 15;
-/// Nearer than the near plane, beyond the guard band, or a value that the GTE saturated: its screen position
-/// means nothing.
+/// Nearer than the near plane, beyond the guard band, or a value that the GTE saturated: its
+/// screen position means nothing.
 inline constexpr std::uint8_t unprojectable = 16;
 }  // namespace outcode
 
@@ -33,8 +33,8 @@ struct Wanted {
   bool fog = false;        ///< ir0
 };
 
-/// Structure of arrays, one entry a vertex; arrays that are not wanted stay empty. Memory is kept from frame
-/// to frame.
+/// Structure of arrays, one entry a vertex; arrays that are not wanted stay empty.
+/// Memory is kept from frame to frame.
 struct Projected {
   std::vector<gte::ScreenXy> sxy;
   std::vector<std::uint16_t> sz;
@@ -78,8 +78,8 @@ class Shader {
  public:
   void shade(const Placement& placement, const Projected& projected, bool fogged,
              std::vector<gte::Colour>& out);
-  /// For an instance whose normals do not keep their length: new ones, in world space, instead of the
-  /// model's.
+  /// For an instance whose normals do not keep their length: new ones, in world
+  /// space, instead of the model's.
   void use_world_normals(const Model& model, const glm::dmat3& normals_to_world);
   void use_model_normals() { normals_.clear(); }
 

@@ -20,10 +20,10 @@ struct Indexed {
   std::vector<std::uint16_t> palette;  ///< at most the number asked for; no two equal
 };
 
-/// Chooses at most `colours` (2..256) halfwords for these texels, and the nearest of them for each. Exact if
-/// there are not more different ones. Otherwise 0000h keeps an entry of its own, opaque and semi-transparent
-/// texels share the rest (bit 15 of no texel changes), each by variance cut and three rounds of refinement.
-/// Integers only.
+/// Chooses at most `colours` (2..256) halfwords for these texels, and the nearest of them for each. Exact
+/// if there are not more different ones. Otherwise 0000h keeps an entry of its own, opaque and
+/// semi-transparent texels share the rest (bit 15 of no texel changes), each by variance cut and three
+/// rounds of refinement. Integers only.
 [[nodiscard]] Indexed quantise(std::span<const std::uint16_t> texels, int colours);
 
 }  // namespace scene

@@ -139,8 +139,8 @@ Mesh cone(float bottom_radius, float height, Parts parts, int slices) {
   const float half = height / 2;
   if (parts.side) {
     const std::vector<SinCos> round = circle(2 * slices);  // every second point lies in the middle of a face
-    // A side's normal leans up by the slope; a point's own normal, so that the side is round and its tip is
-    // not.
+    // A side's normal leans up by the slope; a point's own normal, so that the side
+    // is round and its tip is not.
     const auto normal = [&](int point) {
       const glm::vec3 out = on_circle(round[static_cast<std::size_t>(point)], height, bottom_radius);
       const float length = glm::length(out);

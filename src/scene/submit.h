@@ -70,8 +70,8 @@ struct Submission {
   std::uint32_t instance = 0;
 };
 
-/// Calls sink(const Primitive&) for what is to be drawn, in the order of the faces, then of the lines; counts
-/// the rest.
+/// Calls sink(const Primitive&) for what is to be drawn, in the order of the faces, then
+/// of the lines; counts the rest.
 template <class Sink>
 class Submitter {
  public:
@@ -111,8 +111,8 @@ class Submitter {
     const bool second = faces_us(p.corner[2], p.corner[1], p.corner[3], *p.material);
     if (first && second) return emit(p);
     if (!first && !second) return drop(Drop::back_face);
-    // Bent over: one half is seen from behind. NCLIP of the first three corners alone would keep or lose
-    // both.
+    // Bent over: one half is seen from behind. NCLIP of the first three corners
+    // alone would keep or lose both.
     p.count = 3;
     if (second) p.corner = {p.corner[2], p.corner[1], p.corner[3], Corner{}};
     emit(p);

@@ -127,10 +127,9 @@ class Cutter {
 };
 
 // ---- n x n
-// ---------------------------------------------------------------------------------------------------------
 
-// The grid of points of one face: quads [row][column] from corner 0 along 0-1 and 0-3, triangles the half of
-// it.
+// The grid of points of one face: quads [row][column] from corner 0 along 0-1 and
+// 0-3, triangles the half of it.
 class Grid {
  public:
   Grid(Cutter& cutter, const Polygon& face, int n) : cutter_(cutter), face_(face), n_(n) {
@@ -191,7 +190,6 @@ Mesh subdivided(const Mesh& mesh, std::span<const std::uint32_t> given, std::siz
 }
 
 // ---- whole u and v
-// -------------------------------------------------------------------------------------------------
 
 // Where a face must be cut: at multiples of these; 0: nowhere.
 struct Periods {

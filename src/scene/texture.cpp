@@ -231,9 +231,9 @@ struct Sample {
   }
 };
 
-// Calls add(source, target, weight) for every overlap of `from` source samples with `to` target samples, on a
-// scale where a source sample is `to` wide and a target sample `from`: the weights of a target add up to
-// `from`.
+// Calls add(source, target, weight) for every overlap of `from` source samples with `to` target
+// samples, on a scale where a source sample is `to` wide and a target sample `from`: the
+// weights of a target add up to `from`.
 template <class Add>
 void for_each_overlap(int from, int to, Add&& add) {
   for (int i = 0; i < to; ++i) {

@@ -59,9 +59,9 @@ struct TexturePack {
 /// (alpha-weighted), to 256. `halvings` halves it that many times more, down to 1 texel.
 [[nodiscard]] Texture scaled(const Texture& texture, int halvings);
 
-/// Packs all textures beside frame buffers of `width` pixels (256, 320, 368, 512 or 640). While they do not
-/// fit, the largest is halved. Any number and size of textures; a picture without pixels becomes one white
-/// texel.
+/// Packs all textures beside frame buffers of `width` pixels (256, 320, 368, 512 or 640). While
+/// they do not fit, the largest is halved. Any number and size of textures; a picture without
+/// pixels becomes one white texel.
 [[nodiscard]] TexturePack pack_textures(std::span<const Texture> textures, int width);
 
 }  // namespace scene

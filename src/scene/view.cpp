@@ -70,8 +70,8 @@ bool set_transform(gte::Registers& registers, const Affine& map, const Projectio
 }
 
 void set_depth_cue(gte::Registers& registers, const DepthCue& cue, const View& view) {
-  // IR0 = far/(far-near) * (1 - near/z), z in GTE units, and q = H * 65536 / z is what DQA is multiplied
-  // with.
+  // IR0 = far/(far-near) * (1 - near/z), z in GTE units, and q = H * 65536 / z is
+  // what DQA is multiplied with.
   const double near_z = cue.near_z * view.units;
   const double far_z = cue.far_z * view.units;
   const double slope = far_z > near_z ? far_z / (far_z - near_z) : 1;

@@ -73,8 +73,8 @@ struct Line {
 
 struct Mesh {
   std::vector<glm::vec3> positions;
-  std::vector<glm::vec3>
-      normals;  ///< unit length, one per position, or empty: faces are lit by their own normal
+  /// Unit length, one per position, or empty: faces are lit by their own normal.
+  std::vector<glm::vec3> normals;
   std::vector<Face> faces;
   std::vector<Line> lines;
 };
@@ -87,8 +87,8 @@ struct Instance {
 struct Camera {
   glm::vec3 position{0.0F};
   glm::mat4 orientation{1.0F};  ///< rotation only, camera to world
-  /// Half of the field of view's tangent, over the shorter side of the picture: H = (shorter / 2) /
-  /// tan_half_fov.
+  /// Half of the field of view's tangent, over the shorter side of the picture: H =
+  /// (shorter / 2) / tan_half_fov.
   float tan_half_fov = 0.41421356F;
   float near_z = 0.1F;  ///< world units; never nearer than the transform allows
 };
@@ -118,9 +118,9 @@ struct World {
   float units_per_world = 0;  ///< GTE units per world unit; 0: chosen so that the world fits, and reported
 };
 
-/// A world that moves: `animate` sets instances, camera and lights to the state at `seconds` (frame N is
-/// N/60) and depends on nothing else, so frames can be asked for in any order. Meshes and textures do not
-/// change.
+/// A world that moves: `animate` sets instances, camera and lights to the state at `seconds`
+/// (frame N is N/60) and depends on nothing else, so frames can be asked for in any order.
+/// Meshes and textures do not change.
 struct Scene {
   std::string name;   ///< "crates"
   std::string title;  ///< "Textured crates, spinning"

@@ -326,8 +326,8 @@ class Reader {
     out_.scene.animate(w, 0);
   }
 
-  // No Viewpoint: the specified one if it sees everything, else one that does. Of a picture the middle is
-  // sought.
+  // No Viewpoint: the specified one if it sees everything, else one that does. Of a
+  // picture the middle is sought.
   void frame_all() {
     World& w = world();
     if (layout_.is_mirrored) {

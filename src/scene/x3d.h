@@ -107,8 +107,8 @@ struct Look {
   [[nodiscard]] Rgb8 stored(const glm::vec3& rgb) const;
 };
 
-/// What a geometry node becomes. Faces and lines have material 0; closed[i] tells what `solid` left out
-/// means.
+/// What a geometry node becomes. Faces and lines have material 0; closed[i] tells
+/// what `solid` left out means.
 struct Geometry {
   Mesh mesh;
   enum class Sides : std::uint8_t { both, front, front_if_closed } sides = Sides::front_if_closed;

@@ -88,8 +88,8 @@ struct Animation {
   std::vector<Clock> clocks;
   std::vector<Track> tracks;
   std::vector<Binding> bindings;
-  /// `fields` as the bindings set them at `seconds`; those without a binding, or before a clock's start,
-  /// stay.
+  /// `fields` as the bindings set them at `seconds`; those without a binding, or
+  /// before a clock's start, stay.
   void set(Fields& fields, double seconds) const;
 };
 

@@ -1,6 +1,6 @@
-// Pixels per second of every kind of primitive: random places in 320 x 240, the whole GP0 stream replayed,
-// one thread. Absolute figures wander with the machine; the fraction of the fill rate of the same run does
-// not.
+// Pixels per second of every kind of primitive: random places in 320 x 240, the whole GP0
+// stream replayed, one thread. Absolute figures wander with the machine; the fraction of the
+// fill rate of the same run does not.
 //
 //     bench_gpu [--target AVX2] [--rounds N]
 

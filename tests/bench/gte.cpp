@@ -34,8 +34,8 @@ std::uint64_t ticks() {
 #endif
 }
 
-/// 4096 vertices that a rotation and a translation bring to SZ 256..4096 and onto the screen, with normals
-/// and colours.
+/// 4096 vertices that a rotation and a translation bring to SZ 256..4096 and onto the
+/// screen, with normals and colours.
 struct Workload {
   gte::Registers setup;
   std::vector<gte::Vertex> vertices, normals;
@@ -101,8 +101,7 @@ struct Row {
   }
 };
 
-// ---- one at a time, as an emulator drives it: registers in by number, the command word executed, registers
-// out ------------
+// ---- one at a time, as an emulator drives it: registers in by number, the command word, registers out
 
 std::uint32_t sink;
 
@@ -164,7 +163,6 @@ void add_single_rows(std::vector<Row>& rows, const Workload& w) {
 }
 
 // ---- arrays
-// ----------------------------------------------------------------------------------------------------------
 
 struct Results {
   std::vector<gte::ScreenXy> sxy = std::vector<gte::ScreenXy>(3 * count);
@@ -235,7 +233,6 @@ void add_batch_rows(std::vector<Row>& rows, const Workload& w, const char* targe
 }
 
 // ---- rounds and table
-// -------------------------------------------------------------------------------------------------
 
 /// Calls a row often enough to be timed, about a millisecond.
 int calls_for(const Row& row) {

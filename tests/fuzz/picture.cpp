@@ -1,5 +1,5 @@
-// Any bytes as a texture file. The limit keeps one input from taking seconds; the header is judged before the
-// pixels.
+// Any bytes as a texture file. The limit keeps one input from taking seconds; the
+// header is judged before the pixels.
 
 #include <cstddef>
 #include <cstdint>

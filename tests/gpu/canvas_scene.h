@@ -1,6 +1,6 @@
 #pragma once
-// Words for the canvas tests: a console and a canvas fed alike, and a random source that is the same
-// everywhere.
+// Words for the canvas tests: a console and a canvas fed alike, and a random source
+// that is the same everywhere.
 
 #include <array>
 #include <cstdint>

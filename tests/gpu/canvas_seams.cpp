@@ -1,5 +1,5 @@
-// Hard cases of coverage: every sample between two triangles that share an edge belongs to exactly one of
-// them.
+// Hard cases of coverage: every sample between two triangles that share an edge
+// belongs to exactly one of them.
 
 #include <doctest/doctest.h>
 
@@ -88,8 +88,8 @@ std::vector<std::uint32_t> shaken_mesh(Random& random, std::uint32_t colour) {
   return words;
 }
 
-/// Signed coverage may overlap where a shaken cell is not convex: the mesh is one sheet when all triangles
-/// turn alike.
+/// Signed coverage may overlap where a shaken cell is not convex: the mesh is one sheet
+/// when all triangles turn alike.
 bool is_one_sheet(const std::vector<std::uint32_t>& words) {
   std::vector<canvas::Point> points;
   std::array<canvas::Point, 3> fractions{};

@@ -1,6 +1,6 @@
 #pragma once
-// Just enough of the dump format to feed a GPU: 16 bytes of magic, then packets {bits 0-23 words, 24-31
-// type}.
+// Just enough of the dump format to feed a GPU: 16 bytes of magic, then packets
+// {bits 0-23 words, 24-31 type}.
 
 #include <cstdint>
 #include <cstring>

@@ -10,8 +10,8 @@ TEST_SUITE("gpu") {
     for (int dy = 1; dy < 512; ++dy) {
       for (int dx = -1023; dx < 1024; ++dx) {
         gpu::Edge edge({0, 0}, {dx, dy});
-        // The exact column is the ceiling of dx * row / dy: kept as quotient and remainder, no division per
-        // row.
+        // The exact column is the ceiling of dx * row / dy: kept as quotient and
+        // remainder, no division per row.
         int column = 0, remainder = 0;  // dx * row == column * dy - remainder, 0 <= remainder < dy
         for (int row = 0; row < dy; ++row) {
           wrong += edge.column() != column ? 1 : 0;

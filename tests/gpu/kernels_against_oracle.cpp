@@ -1,5 +1,5 @@
-// Every kernel, on every dispatch target, against the plain rasterizer: all of VRAM after every batch of
-// commands.
+// Every kernel, on every dispatch target, against the plain rasterizer: all of VRAM
+// after every batch of commands.
 
 #include <doctest/doctest.h>
 
@@ -71,8 +71,8 @@ TEST_SUITE("gpu") {
       both->feed({0xe3000000, 0xe4000000 | 500 | 255 << 10});
       for (std::uint32_t opcode = 0x20; opcode < 0x40; ++opcode) {
         for (std::uint32_t variant = 0; variant < 4 * 3 * 2 * 2; ++variant) {
-          // Blend, texture format, dither, mask test; pages beside the drawing area, so that blocks may be
-          // used.
+          // Blend, texture format, dither, mask test; pages beside the drawing area,
+          // so that blocks may be used.
           const std::uint32_t blend = variant & 3, format = variant / 4 % 3, dither = variant / 12 % 2;
           std::vector<std::uint32_t> words{0xe1000000 | dither << 9 | blend << 5,
                                            0xe6000000 | (variant / 24 * 2)};

@@ -1,5 +1,5 @@
-// The batch door gives the bits of the single commands: every instruction set, every output, every kind of
-// input.
+// The batch door gives the bits of the single commands: every instruction set, every
+// output, every kind of input.
 
 #include "gte/batch.h"
 
@@ -160,8 +160,8 @@ void multiply(const Case& c, std::size_t count, Outputs& o) {
                  o.flag.get()});
 }
 
-/// Runs `door` on at least `total` elements of every kind with every instruction set, and with the single
-/// commands.
+/// Runs `door` on at least `total` elements of every kind with every instruction set,
+/// and with the single commands.
 void equal_the_single_commands(Door door, std::size_t total) {
   const EachTarget targets;
   for (int kind = 0; kind < static_cast<int>(Kind::count); ++kind) {

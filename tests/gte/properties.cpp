@@ -21,8 +21,8 @@ gte::Registers any(Random& random) {
   return tests::registers(random, static_cast<Kind>(random.below(static_cast<std::uint32_t>(Kind::count))));
 }
 
-/// The division as the reference has it, step by step and in 64 bits, sharing nothing with the one under
-/// test.
+/// The division as the reference has it, step by step and in 64 bits, sharing
+/// nothing with the one under test.
 gte::Quotient plain_division(std::uint64_t h, std::uint64_t sz) {
   if (h >= 2 * sz) return {0x1ffff, true};
   unsigned z = 0;

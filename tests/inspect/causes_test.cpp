@@ -74,9 +74,9 @@ TEST_SUITE("inspect") {
     CHECK(stage.report().wrong_pixels() == 0);
   }
 
-  // Four strips like the flaps of a closed box, two pixels wide. Along each, z goes from 100 to 300, so each
-  // lies under the next where they cross: top under right, right under bottom, bottom under left, left under
-  // top.
+  // Four strips like the flaps of a closed box, two pixels wide. Along each, z goes from 100 to
+  // 300, so each lies under the next where they cross: top under right, right under bottom,
+  // bottom under left, left under top.
   struct Flaps : Stage {
     explicit Flaps(int left_begins) {
       quad(0, 0, 8, 2, 100, 300, {.bucket = 8});
@@ -120,9 +120,9 @@ TEST_SUITE("inspect") {
     CHECK(apart.report().wrong_pixels() == 0);
   }
 
-  // A floor from z 100 to z 900 (average 500) and a box on its far end at z 600: the average says the box is
-  // behind. At x = 6, 7 the floor's 1/z is 1/100 - x/900 = 1/300, 1/450: nearer than 600. At x = 7.5 it is
-  // 1/600.
+  // A floor from z 100 to z 900 (average 500) and a box on its far end at z 600: the average
+  // says the box is behind. At x = 6, 7 the floor's 1/z is 1/100 - x/900 = 1/300, 1/450: nearer
+  // than 600. At x = 7.5 it is 1/600.
   TEST_CASE("KeyInversion: averages put the long floor in front of the box that stands on it") {
     Stage stage;
     stage.quad(7, 0, 8, 8, 400, {.bucket = 600});

@@ -45,8 +45,8 @@ TEST_SUITE("inspect") {
 
   TEST_CASE("depths that differ by one part in 2^62 are told apart") {
     inspect::DecisionCounts counts;
-    // On the long diagonal w1 : w2 is 1 : 1, so 1/z is the mean of the reciprocals of neighbouring huge
-    // depths.
+    // On the long diagonal w1 : w2 is 1 : 1, so 1/z is the mean of the reciprocals
+    // of neighbouring huge depths.
     const std::uint32_t z = 0xfffffffe;
     const InversePlane mean(Triangle{{{0, 0, z}, {2048, 0, z - 1}, {0, 2048, z + 1}}});
     const InversePlane plain(flat(z));

@@ -1,6 +1,6 @@
 #pragma once
-// A small stage for hand-computed frames: polygons with depth and a bucket, drawn in the order they are
-// added.
+// A small stage for hand-computed frames: polygons with depth and a bucket, drawn
+// in the order they are added.
 
 #include <array>
 #include <cstdint>
@@ -37,8 +37,8 @@ class Stage {
     gpu_.set_trace(&trace_);
   }
 
-  /// From now on 0,0 stands for (x, y) of VRAM, and 8 x 8 pixels from there are drawn on: many small frames
-  /// in one.
+  /// From now on 0,0 stands for (x, y) of VRAM, and 8 x 8 pixels from there are drawn
+  /// on: many small frames in one.
   void move_to(std::uint32_t x, std::uint32_t y) {
     gpu_.gp0(0xe3000000 | y << 10 | x);
     gpu_.gp0(0xe4000000 | (y + 7) << 10 | (x + 7));

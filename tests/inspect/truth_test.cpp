@@ -116,8 +116,8 @@ TEST_SUITE("inspect") {
   }
 
   TEST_CASE("the two triangles of a quad have their own planes") {
-    // A quad bent along its diagonal from (8,0) to (0,8): the first half lies at z 100, the second falls to z
-    // 300.
+    // A quad bent along its diagonal from (8,0) to (0,8): the first half lies at z
+    // 100, the second falls to z 300.
     tests::Stage stage;
     stage.polygon({{0, 0, 100}, {8, 0, 100}, {0, 8, 100}, {8, 8, 300}});
     stage.quad(7, 7, 8, 8, 200);  // the quad's 1/z at (7,7) is 1/100 - 6/8 * (1/100 - 1/300) = 1/200: equal
@@ -177,8 +177,8 @@ TEST_SUITE("inspect") {
   }
 
   TEST_CASE("a triangle that wraps below the bottom of VRAM is judged at its own sample points") {
-    // Drawing area rows 512..519 are stored at rows 0..7. z grows downwards from 100 at row 512 to 300 at row
-    // 520.
+    // Drawing area rows 512..519 are stored at rows 0..7. z grows downwards from 100
+    // at row 512 to 300 at row 520.
     tests::Stage stage;
     stage.gpu().gp0(0xe3000000 | 512 << 10);
     stage.gpu().gp0(0xe4000000 | 519 << 10 | 7);

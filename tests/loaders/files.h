@@ -29,8 +29,8 @@ std::string jpeg(int width, int height, unsigned char r, unsigned char g, unsign
 std::string tga(int width, int height, unsigned char r, unsigned char g, unsigned char b);
 std::string bmp(int width, int height, unsigned char r, unsigned char g, unsigned char b);
 
-/// The line an input is refused with, "" if it is accepted. Also checks that it is one line and exit
-/// status 2.
+/// The line an input is refused with, "" if it is accepted. Also checks that it is
+/// one line and exit status 2.
 std::string refusal(const scene::Result<scene::LoadedScene>& loaded);
 
 inline scene::Result<scene::LoadedScene> obj(std::string_view text,

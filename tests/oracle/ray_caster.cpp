@@ -19,16 +19,16 @@ Point in_space(const Corner& corner) {
   return {Rational(corner.x, 256) * z, Rational(corner.y, 256) * z, z};
 }
 
-// Is the sample on the inner side of edge a-b, or on it and the edge a left or top one? c is the third
-// corner.
+// Is the sample on the inner side of edge a-b, or on it and the edge a left or top
+// one? c is the third corner.
 bool is_inside(const Corner& a, const Corner& b, const Corner& c, long px, long py) {
   const auto side = [&](long x, long y) {
     return (long{b.x} - a.x) * (y - a.y) - (long{b.y} - a.y) * (x - a.x);
   };
   const long inner = side(c.x, c.y), sample = side(px, py);
   if (sample != 0) return (sample > 0) == (inner > 0);
-  // On the edge. Step a little to the right, or down along a horizontal edge: inside means the edge is
-  // inclusive.
+  // On the edge. Step a little to the right, or down along a horizontal edge: inside
+  // means the edge is inclusive.
   const long nudged = a.y == b.y ? side(px, py + 1) : side(px + 1, py);
   return (nudged > 0) == (inner > 0);
 }

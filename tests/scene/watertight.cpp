@@ -13,8 +13,8 @@
 
 namespace {
 
-// Stacks x slices of quads on a sphere, each vertex at its own distance: every ray from the centre meets it
-// once.
+// Stacks x slices of quads on a sphere, each vertex at its own distance: every ray
+// from the centre meets it once.
 scene::Mesh shell(std::mt19937& random, int stacks, int slices, float roughness) {
   scene::Mesh mesh;
   const auto distance = [&] { return 1 + roughness * (static_cast<float>(random() % 2001) / 1000.0F - 1); };

@@ -1,13 +1,13 @@
 #pragma once
-// One line of docs/stability.md: a hard case, what could go wrong, the bound promised and the worst value
-// seen.
+// One line of docs/stability.md: a hard case, what could go wrong, the bound
+// promised and the worst value seen.
 //
 //   Measure worst{"Raster", "fan of 1,000 triangles", "a doubly blended seam", "every pixel once", "times",
 //   1}; for (...) worst.see(times_drawn);
 //
-// When it goes out of scope the line is recorded and the bound is checked. Inputs come from fixed seeds, so
-// the whole page is a function of the code: `tests_stability --write docs/stability.md` writes it, `--check`
-// compares.
+// When it goes out of scope the line is recorded and the bound is checked. Inputs come from
+// fixed seeds, so the whole page is a function of the code: `tests_stability --write
+// docs/stability.md` writes it, `--check` compares.
 
 #include <doctest/doctest.h>
 
@@ -49,8 +49,8 @@ class Measure {
     lines().push_back(line_);
   }
 
-  /// One input gave this value (an error, a count of bad pixels); `inputs` when the value is over several
-  /// inputs.
+  /// One input gave this value (an error, a count of bad pixels); `inputs` when the
+  /// value is over several inputs.
   void see(double value, std::uint64_t inputs = 1) {
     if (!(value <= line_.worst)) line_.worst = value;  // a NaN sticks, and fails the bound
     line_.inputs += inputs;

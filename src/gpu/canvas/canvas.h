@@ -51,9 +51,9 @@ class Canvas {
   /// Draws the queued semi-transparent polygons, far to near.
   WithoutDepth end_frame();
 
-  /// Draws a polygon, rectangle or line segment if its drawing area touches the canvas. False: it does not,
-  /// the primitive is VRAM's. `clut`: 256 entries, read during the call. `id` is stored as the pixels'
-  /// writer.
+  /// Draws a polygon, rectangle or line segment if its drawing area touches the canvas.
+  /// False: it does not, the primitive is VRAM's. `clut`: 256 entries, read during the call.
+  /// `id` is stored as the pixels' writer.
   bool draw(const Primitive& primitive, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
   /// VRAM was changed by a fill, copy or upload: does the same to the canvas where it was the target, and
   /// forgets mip levels. Call after VRAM is changed.

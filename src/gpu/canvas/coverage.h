@@ -1,9 +1,8 @@
 #pragma once
-// Which samples lie inside a triangle whose corners stand on a 1/256 grid: the edge rule of the console
-// (left and top edges in, right and bottom edges out; reference 4.1) carried over to finer positions and to
-// any sample point. Exact: every division is an integer one and keeps its remainder, so two triangles that
-// share an edge never both own a sample and never leave one out, whatever the resolution or the sample
-// pattern.
+// Which samples lie inside a triangle whose corners stand on a 1/256 grid: the edge rule of the console (left
+// and top edges in, right and bottom edges out) carried over to finer positions and to any
+// sample point. Exact: every division is an integer one and keeps its remainder, so two triangles that share
+// an edge never both own a sample and never leave one out, whatever the resolution or the sample pattern.
 //
 // Ranges. A canvas unit is 1/256 of a canvas pixel. Corners are within +-2^24 units (+-2048 console pixels at
 // eight times the resolution need 2^22), heights below 2^25; the largest product is 2^51.
@@ -48,13 +47,13 @@ constexpr std::int64_t doubled_area(Point a, Point b, Point c) {
   return (b.x - a.x) * (c.y - b.y) - (c.x - b.x) * (b.y - a.y);
 }
 
-/// First pixel at or to the right of one edge, row by row: ceil of the exact crossing, stepped with its
-/// remainder.
+/// First pixel at or to the right of one edge, row by row: ceil of the exact
+/// crossing, stepped with its remainder.
 class EdgeCrossing {
  public:
   EdgeCrossing() = default;
-  /// `upper.y < lower.y`. The row's sample line is y = row * 256 + sample.y, the pixel's sample x = i * 256 +
-  /// sample.x.
+  /// `upper.y < lower.y`. The row's sample line is y = row * 256 + sample.y, the pixel's
+  /// sample x = i * 256 + sample.x.
   EdgeCrossing(Point upper, Point lower, Point sample, int row) {
     const auto height = lower.y - upper.y;
     assert(height > 0);

@@ -36,8 +36,8 @@ class DepthCode {
         scale_ = 1;
         break;
     }
-    // t = constant + slope * (z or 1/z); reversed formats store 1 - t, whose own formula keeps float32
-    // precise.
+    // t = constant + slope * (z or 1/z); reversed formats store 1 - t, whose own
+    // formula keeps float32 precise.
     if (linear_) {
       constant_ = reversed_ ? options.far_z / range : -near / range;
       slope_ = (reversed_ ? -1 : 1) / range;

@@ -56,8 +56,8 @@ void fog_factors(const FogRamp& ramp, const Planes& planes, const Positions& pos
   });
 }
 
-/// Both coordinates in one word. Rounding may leave 0..255 by less than half a texel, so 128 keeps them
-/// positive.
+/// Both coordinates in one word. Rounding may leave 0..255 by less than half a
+/// texel, so 128 keeps them positive.
 constexpr std::uint32_t texcoord(std::int32_t u, std::int32_t v) {
   return (static_cast<std::uint32_t>(u + 128) & 0xffff) | static_cast<std::uint32_t>(v + 128) << 16;
 }

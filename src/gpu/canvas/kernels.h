@@ -15,18 +15,17 @@ struct Run {
   int x = 0, y = 0, count = 0;
   /// Per pixel, bit s = sample s is covered; nullptr: all samples are.
   const std::uint8_t* covered = nullptr;
-  /// Per pixel, where attributes are taken, in canvas units from the pixel's origin; nullptr: at the layer's
-  /// offset.
+  /// Per pixel, where attributes are taken, in canvas units from the pixel's origin;
+  /// nullptr: at the layer's offset.
   const Point* shaded_at = nullptr;
 };
 
 /// What the kernels did.
 struct Counters {
-  std::uint64_t primitives =
-      0;                      ///< triangles, rectangles, line segments that drew at least one run, per layer
-  std::uint64_t covered = 0;  ///< pixels with a covered sample
-  std::uint64_t shaded = 0;   ///< pixels whose colour was computed: once, whatever the samples
-  std::uint64_t written = 0;  ///< samples written
+  std::uint64_t primitives = 0;  ///< triangles, rectangles, line segments with at least one run, per layer
+  std::uint64_t covered = 0;     ///< pixels with a covered sample
+  std::uint64_t shaded = 0;      ///< pixels whose colour was computed: once, whatever the samples
+  std::uint64_t written = 0;     ///< samples written
   std::array<std::uint64_t, Mode::count> runs{};  ///< calls of each kernel, by Mode::index()
 };
 

@@ -1,6 +1,6 @@
 #pragma once
-// What a kernel needs to know of the primitive it draws and of the picture it draws into. Set up once per
-// primitive.
+// What a kernel needs to know of the primitive it draws and of the picture it draws
+// into. Set up once per primitive.
 
 #include <array>
 #include <cstdint>
@@ -93,8 +93,8 @@ struct FogRamp {
   double constant = 0, slope = 0;
 };
 
-/// The texels of one primitive: taps of a filter stay inside, so what lies beside them in the page does not
-/// bleed.
+/// The texels of one primitive: taps of a filter stay inside, so what lies beside
+/// them in the page does not bleed.
 struct TexelBox {
   int u_min = 0, u_max = 255, v_min = 0, v_max = 255;
   int coarsest_level = 0;  ///< one texel of the next level would be larger than the box

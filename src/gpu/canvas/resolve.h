@@ -1,8 +1,8 @@
 #pragma once
 // From the samples of a frame to its pixels: the filter afterwards.
 //
-// Means are taken of the stored values, which is what the console's blending does too; light is not
-// linearised.
+// Means are taken of the stored values, which is what the console's blending does
+// too; light is not linearised.
 
 #include <cstdint>
 #include <vector>
@@ -18,8 +18,8 @@ enum class Reconstruction : std::uint8_t {
   gauss,  ///< standard deviation half a pixel, cut off at 1.5 pixels
 };
 
-/// Weight of one sample of the pixel (dx, dy) away, dx, dy in -1..1, in 65536ths; all weights of a filter sum
-/// to 65536.
+/// Weight of one sample of the pixel (dx, dy) away, dx, dy in -1..1, in 65536ths; all
+/// weights of a filter sum to 65536.
 struct Tap {
   std::size_t layer = 0, sample = 0;
   int dx = 0, dy = 0;
@@ -32,14 +32,14 @@ std::vector<Tap> filter_taps(const Options& options, Reconstruction filter);
 /// The picture: width() x height() pixels, 8 bits a channel; 5 bits become 8 as v << 3 | v >> 2.
 Image resolve(const Canvas& canvas, Reconstruction filter);
 
-/// Fast approximate anti-aliasing of a finished picture: where luma shows an edge, pixels are moved along
-/// their neighbour by the share of the edge's length that they stand at. [Lottes 2009, FXAA; written from the
-/// description]
+/// Fast approximate anti-aliasing of a finished picture: where luma shows an edge, pixels are
+/// moved along their neighbour by the share of the edge's length that they stand at. [Lottes 2009,
+/// FXAA; written from the description]
 Image fxaa(const Image& image);
 
-/// Temporal accumulation: the mean of the last frames, each drawn from another jitter. What is left of
-/// earlier frames is limited to the colours round each pixel of the newest one, so that what moved leaves no
-/// ghost.
+/// Temporal accumulation: the mean of the last frames, each drawn from another jitter. What is
+/// left of earlier frames is limited to the colours round each pixel of the newest one, so
+/// that what moved leaves no ghost.
 class Accumulator {
  public:
   /// Takes the next frame and returns the accumulated picture. A picture of another size starts anew.

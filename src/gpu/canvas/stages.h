@@ -130,8 +130,8 @@ inline std::int32_t half_log2(float square) {
   return (std::bit_cast<std::int32_t>(square) - (127 << 23)) >> 16;
 }
 
-/// Mip levels: log2 of the longer of the two steps in texels that one canvas pixel takes to the right and
-/// down.
+/// Mip levels: log2 of the longer of the two steps in texels that one canvas pixel
+/// takes to the right and down.
 inline void choose_levels(const Paint& paint, const Planes& planes, const Positions& positions,
                           const std::array<double, run_length>& z, int count, Fragments& f) {
   const auto longer_step = [](double ux, double vx, double uy, double vy) {
