@@ -1,7 +1,5 @@
 // otter inspect: which pixels are wrong, why, and between whom.
 
-#include "inspect/report.h"
-
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
@@ -25,6 +23,7 @@
 #include "inspect/history.h"
 #include "inspect/image.h"
 #include "inspect/json.h"
+#include "inspect/report.h"
 #include "scene/accurate.h"
 
 namespace app {
@@ -74,8 +73,9 @@ class SceneSource : public Source {
     machine_.watch(nullptr);
     if (!stats) return tl::make_unexpected(stats.error());
     if (machine_.gpu().canvas() != nullptr) {
-      return scene::fail("inspect judges the console's own pixels: expected position, texture, filter, colour, antialias, "
-                         "fog and resolution at the console's settings");
+      return scene::fail(
+          "inspect judges the console's own pixels: expected position, texture, filter, colour, antialias, "
+          "fog and resolution at the console's settings");
     }
     Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
                     machine_.gpu().vram().pixels()};
@@ -93,7 +93,8 @@ class SceneSource : public Source {
                                  " faces were left out before drawing"});
     }
     if (stats.splits != 0) {
-      report.lint.push_back({"splits", "", std::to_string(stats.splits) + " cuts were made to find an order"});
+      report.lint.push_back(
+          {"splits", "", std::to_string(stats.splits) + " cuts were made to find an order"});
     }
   }
 
@@ -113,7 +114,8 @@ class DumpSource : public Source {
   scene::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
     if (number < 1 || (number > dump_.vsyncs && !(number == 1 && dump_.vsyncs == 0))) {
       return scene::fail(name_ + ": --frame " + std::to_string(number) + ": expected 1.." +
-                         std::to_string(std::max<std::uint64_t>(1, dump_.vsyncs)) + ", the frames of this dump");
+                         std::to_string(std::max<std::uint64_t>(1, dump_.vsyncs)) +
+                         ", the frames of this dump");
     }
     play_until(number - 1);
     gpu_.set_trace(&trace);
@@ -125,12 +127,14 @@ class DumpSource : public Source {
                              std::to_string(end.first_without_depth),
                          scene::Exit::failed);
     }
-    return Watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}), gpu_.vram().pixels()};
+    return Watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}),
+                   gpu_.vram().pixels()};
   }
   [[nodiscard]] std::uint32_t first_frame() const override { return 1; }
 
  private:
-  // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are fewer.
+  // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are
+  // fewer.
   gpu::FrameEnd play_until(std::uint64_t vsyncs) {
     gpu::Dump part;
     part.gpu_version = dump_.gpu_version;
@@ -163,7 +167,8 @@ scene::Result<FrameRange> frames_of(const Options& options, std::uint32_t first)
     if (!options.frame.empty()) return scene::fail("--frames: expected no --frame beside it");
     const auto dots = options.frames.find("..");
     const auto a = number(std::string_view(options.frames).substr(0, dots));
-    const auto b = dots == std::string::npos ? std::nullopt : number(std::string_view(options.frames).substr(dots + 2));
+    const auto b =
+        dots == std::string::npos ? std::nullopt : number(std::string_view(options.frames).substr(dots + 2));
     if (!a || !b || *b < *a) return scene::fail("--frames: expected A..B with A <= B, got " + options.frames);
     if (*b != *a && (options.wants_picture() || !options.pixel.empty())) {
       return scene::fail("--frames: a picture or --pixel needs a single frame, got " + options.frames);
@@ -184,8 +189,10 @@ scene::Result<std::optional<Position>> pixel_of(const Options& options) {
   if (options.pixel.empty()) return std::nullopt;
   const auto comma = options.pixel.find(',');
   const auto x = number(std::string_view(options.pixel).substr(0, comma));
-  const auto y = comma == std::string::npos ? std::nullopt : number(std::string_view(options.pixel).substr(comma + 1));
-  if (!x || !y || *x > 1023 || *y > 511) return scene::fail("--pixel: expected X,Y in the picture, got " + options.pixel);
+  const auto y =
+      comma == std::string::npos ? std::nullopt : number(std::string_view(options.pixel).substr(comma + 1));
+  if (!x || !y || *x > 1023 || *y > 511)
+    return scene::fail("--pixel: expected X,Y in the picture, got " + options.pixel);
   return Position{static_cast<int>(*x), static_cast<int>(*y)};
 }
 
@@ -229,8 +236,11 @@ scene::Result<void> write_pictures(const Options& options, const Watched& watche
   return write(options.heatmap, [&] { return inspect::heatmap(report, watched.vram); })
       .and_then([&] { return write(options.overdraw, [&] { return inspect::overdraw(report, trace); }); })
       .and_then([&] { return write(options.ids, [&] { return inspect::ids(report, trace); }); })
-      .and_then([&] { return write(options.truth, [&] { return inspect::truth_image(report, trace, watched.vram); }); })
-      .and_then([&] { return write(options.depth_map, [&] { return inspect::depth_image(report, trace); }); });
+      .and_then([&] {
+        return write(options.truth, [&] { return inspect::truth_image(report, trace, watched.vram); });
+      })
+      .and_then(
+          [&] { return write(options.depth_map, [&] { return inspect::depth_image(report, trace); }); });
 }
 
 scene::Result<void> print_history(const inspect::Report& report, const gpu::Trace& trace, Position at) {
@@ -249,7 +259,8 @@ scene::Result<int> write_json(const Options& options, const std::vector<inspect:
   if (options.json == "-") {
     std::fputs(json.c_str(), stdout);
   } else if (!options.json.empty()) {
-    if (auto written = display::write_file(options.json, json); !written) return tl::make_unexpected(written.error());
+    if (auto written = display::write_file(options.json, json); !written)
+      return tl::make_unexpected(written.error());
   }
   return 0;
 }
@@ -276,15 +287,17 @@ scene::Result<int> run(const Options& options) {
     if (auto done = write_pictures(options, *watched, trace); !done) return tl::make_unexpected(done.error());
     if (options.json != "-") std::fputs(inspect::to_text(watched->report).c_str(), stdout);
     if (*pixel && options.json != "-") {
-      if (auto done = print_history(watched->report, trace, **pixel); !done) return tl::make_unexpected(done.error());
+      if (auto done = print_history(watched->report, trace, **pixel); !done)
+        return tl::make_unexpected(done.error());
     }
     reports.push_back(std::move(watched->report));
     progress.step();
   }
   if (auto done = write_json(options, reports); !done) return done;
   if (options.max >= 0 && wrong > static_cast<std::uint64_t>(options.max)) {
-    return scene::fail("--max " + std::to_string(options.max) + ": " + std::to_string(wrong) + " pixels are wrong",
-                       scene::Exit::failed);
+    return scene::fail(
+        "--max " + std::to_string(options.max) + ": " + std::to_string(wrong) + " pixels are wrong",
+        scene::Exit::failed);
   }
   return 0;
 }
@@ -299,17 +312,22 @@ Action add_inspect(CLI::App& sub) {
   sub.add_option("source", options->source, "a scene of `otter list`, an .obj or .x3d file, or a GPU dump")
       ->type_name("SCENE|DUMP")
       ->required();
-  sub.add_option("--frame", options->frame, "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]")
+  sub.add_option("--frame", options->frame,
+                 "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]")
       ->type_name("N")
       ->take_last();
-  sub.add_option("--frames", options->frames, "several frames, both ends included")->type_name("A..B")->take_last();
+  sub.add_option("--frames", options->frames, "several frames, both ends included")
+      ->type_name("A..B")
+      ->take_last();
   file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
   file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
   file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");
   file("--ids", options->ids, "PNG: a colour per primitive that is seen");
   file("--truth", options->truth, "PNG: the picture as it should be");
   file("--depth-map", options->depth_map, "PNG: 1/z of the true owners");
-  sub.add_option("--pixel", options->pixel, "tell the history of a pixel of the picture")->type_name("X,Y")->take_last();
+  sub.add_option("--pixel", options->pixel, "tell the history of a pixel of the picture")
+      ->type_name("X,Y")
+      ->take_last();
   sub.add_option("--max", options->max, "exit with 1 if more pixels are wrong")
       ->type_name("N")
       ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
