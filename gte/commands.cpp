@@ -457,6 +457,9 @@ constexpr std::array<CommandInfo, 64> by_opcode() {
   std::array<CommandInfo, 64> table{};
   for (unsigned i = 0; i < 64; ++i) table[i] = {i, "", 0, unlisted};
   for (const CommandInfo& c : commands) table[c.opcode] = c;
+  // Two that no document lists do what another does. [observed in one emulator; no capture]
+  table[0x00].run = rtps;
+  table[0x1a].run = dcpl;
   return table;
 }
 

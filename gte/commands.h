@@ -54,7 +54,8 @@ struct CommandInfo {
   void (*run)(Registers&, Command) = nullptr;
 };
 
-/// All 64 opcodes. Those without a name do nothing but clear FLAG [ours: the hardware's answer is not known].
+/// All 64 opcodes. Of those without a name 00h does what RTPS does and 1Ah what DCPL does; the others do
+/// nothing but clear FLAG [ours: the hardware's answer is not known].
 extern const std::array<CommandInfo, 64> command_table;
 
 /// Runs whatever command the word says.

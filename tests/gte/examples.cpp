@@ -354,12 +354,23 @@ TEST_SUITE("gte") {
 
   TEST_CASE("an unlisted opcode clears FLAG and touches nothing else") {
     for (unsigned opcode = 0; opcode < 64; ++opcode) {
-      if (!gte::command_table[opcode].name.empty()) continue;
+      if (!gte::command_table[opcode].name.empty() || opcode == 0x00 || opcode == 0x1a) continue;
       gte::Registers r;
       for (unsigned i = 0; i < 64; ++i) gte::write(r, i, 0x12345678u * (i + 1));
       gte::Registers expected = r;
       expected.flag = 0;
       gte::execute(r, opcode);
+      CHECK(r == expected);
+    }
+  }
+
+  TEST_CASE("opcode 00h does what RTPS does, and 1Ah what DCPL does") {
+    for (const auto& [opcode, twin] : {std::pair{0x00u, 0x01u}, std::pair{0x1au, 0x29u}}) {
+      gte::Registers r;
+      for (unsigned i = 0; i < 64; ++i) gte::write(r, i, 0x12345678u * (i + 1));
+      gte::Registers expected = r;
+      gte::execute(expected, 0x80000u | twin);
+      gte::execute(r, 0x80000u | opcode);
       CHECK(r == expected);
     }
   }
