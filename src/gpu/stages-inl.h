@@ -24,8 +24,14 @@ namespace gpu::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Left to itself the compiler keeps a stage as a call, and the kernel runs many times slower.
+// Left to itself the compiler keeps a stage as a call, and the kernel runs many times slower. Under the
+// sanitizers stages are calls indeed: they can be stepped, are shared by all modes, and compile in seconds.
+#undef STAGE
+#ifdef OTTER_STAGES_ARE_CALLS
+#define STAGE static
+#else
 #define STAGE static HWY_INLINE
+#endif
 
 template <class D>
 using Half16 = hn::Rebind<std::uint16_t, D>;
@@ -98,7 +104,7 @@ struct Palette16 {
 #if HWY_TARGET == HWY_SCALAR
   const std::uint16_t* entries;
   explicit Palette16(const std::uint16_t* clut) : entries(clut) {}
-  static HWY_INLINE V<D> at(const Palette16& p, V<D> index) { return V<D>(p.entries[index.raw]); }
+  STAGE V<D> at(const Palette16& p, V<D> index) { return V<D>(p.entries[index.raw]); }
 #else
   using D8 = hn::Repartition<std::uint8_t, D>;
   hn::Vec<D8> low, high;
@@ -294,12 +300,12 @@ STAGE V<D> computed_depth(D, const DepthJob& depth, double start, int column) {
 template <class D>
 struct FixedDepths {
   std::uint64_t first = 0;
-  static HWY_INLINE FixedDepths ramp(std::uint64_t) { return {}; }
-  static HWY_INLINE FixedDepths from(std::uint64_t start, const FixedDepths&) { return {start}; }
-  static HWY_INLINE V<D> stored(const FixedDepths& f) {
+  STAGE FixedDepths ramp(std::uint64_t) { return {}; }
+  STAGE FixedDepths from(std::uint64_t start, const FixedDepths&) { return {start}; }
+  STAGE V<D> stored(const FixedDepths& f) {
     return V<D>(static_cast<std::int32_t>(static_cast<std::uint32_t>(f.first >> 32)));
   }
-  static HWY_INLINE void advance(FixedDepths& f, std::uint64_t dx) { f.first += dx; }
+  STAGE void advance(FixedDepths& f, std::uint64_t dx) { f.first += dx; }
 };
 #else
 /// Doubles, half a block at a time: 32-bit depths need their 53 bits.
@@ -337,7 +343,7 @@ struct FixedDepths {
   using D64 = hn::Repartition<std::uint64_t, D>;
   hn::Vec<D64> low, high;
 
-  static HWY_INLINE FixedDepths ramp(std::uint64_t dx) {
+  STAGE FixedDepths ramp(std::uint64_t dx) {
     const D64 d;
     const hn::RebindToUnsigned<D> d32;
     constexpr auto half = hn::MaxLanes(d);
@@ -348,15 +354,15 @@ struct FixedDepths {
     const auto first = hn::Add(times(dx), hn::ShiftLeft<32>(times(dx >> 32)));
     return {first, hn::Add(first, hn::Set(d, dx * half))};
   }
-  static HWY_INLINE FixedDepths from(std::uint64_t start, const FixedDepths& lanes) {
+  STAGE FixedDepths from(std::uint64_t start, const FixedDepths& lanes) {
     const auto first = hn::Set(D64(), start);
     return {hn::Add(first, lanes.low), hn::Add(first, lanes.high)};
   }
-  static HWY_INLINE V<D> stored(const FixedDepths& f) {
+  STAGE V<D> stored(const FixedDepths& f) {
     const D d;
     return hn::ConcatOdd(d, hn::BitCast(d, f.high), hn::BitCast(d, f.low));
   }
-  static HWY_INLINE void advance(FixedDepths& f, std::uint64_t dx) {
+  STAGE void advance(FixedDepths& f, std::uint64_t dx) {
     const D64 d;
     const auto block = hn::Set(d, dx * (2 * hn::MaxLanes(d)));
     f = {hn::Add(f.low, block), hn::Add(f.high, block)};
