@@ -24,6 +24,8 @@ struct Command {
   const char* examples;
 };
 
+Action add_cost(CLI::App& sub);
+Action add_effects(CLI::App& sub);
 Action add_gte_check(CLI::App& sub);
 Action add_list(CLI::App& sub);
 Action add_record(CLI::App& sub);
@@ -62,6 +64,12 @@ inline constexpr std::array commands{
     Command{"walk", "check and draw a list in a saved RAM image", add_walk,
             "  otter walk ram.bin --head 8012FFFC --table 8012F000,1024\n"
             "  otter walk ram.bin --head 80123000 --vram-in vram.bin --vram vram.png\n"},
+    Command{"cost", "what every setting of accuracy costs in time, and the error it leaves", add_cost,
+            "  otter cost crates --quick --html cost.html\n"
+            "  otter cost --axes texture,antialias corridor --json cost.json\n"},
+    Command{"effects", "the effects a frame calls for, and the price of each", add_effects,
+            "  otter effects crates\n"
+            "  otter effects glass --visibility zbuffer --antialias msaa-4 --json effects.json\n"},
     Command{"gte-check", "run register vectors through the GTE", add_gte_check,
             "  otter gte-check vectors.csv\n"
             "  otter gte-check vectors.csv --all\n"},

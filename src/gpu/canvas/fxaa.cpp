@@ -12,35 +12,54 @@ int luma(std::uint32_t p) {
   return static_cast<int>((p & 255) * 77 + (p >> 8 & 255) * 150 + (p >> 16 & 255) * 29);
 }
 
+constexpr int least_contrast = 12 * 256;  // of 255 * 256: weaker edges are texture
+constexpr int relative_contrast = 6;      // an edge is at least 1/6 of the brightest neighbour
+constexpr int search_length = 8;          // pixels along an edge, each way
+
+/// Brightness of every pixel, with a border that repeats the outermost ones, as wide as anything looks.
 class Lumas {
  public:
-  explicit Lumas(const Image& image) : image_(image), values_(image.pixels.size()) {
-    std::ranges::transform(image.pixels, values_.begin(), luma);
+  static constexpr int border = search_length + 2;
+
+  explicit Lumas(const Image& image)
+      : width_(image.width),
+        height_(image.height),
+        values_(static_cast<std::size_t>(stride()) * static_cast<std::size_t>(height_ + 2 * border)) {
+    for (int y = 0; y < height_; ++y) {
+      std::int32_t* row = &values_[index(0, y)];
+      const auto* pixels = &image.pixels[image.index(0, y)];
+      std::transform(pixels, pixels + width_, row, luma);
+      std::fill_n(row - border, border, row[0]);
+      std::fill_n(row + width_, border, row[width_ - 1]);
+    }
+    for (int i = 1; i <= border; ++i) {
+      std::copy_n(&values_[index(-border, 0)], stride(), &values_[index(-border, -i)]);
+      std::copy_n(&values_[index(-border, height_ - 1)], stride(), &values_[index(-border, height_ - 1 + i)]);
+    }
   }
-  [[nodiscard]] int at(int x, int y) const {
-    return values_[image_.index(std::clamp(x, 0, image_.width - 1), std::clamp(y, 0, image_.height - 1))];
-  }
+  /// Up to `border` pixels outside the picture.
+  [[nodiscard]] const std::int32_t* at(int x, int y) const { return &values_[index(x, y)]; }
+  [[nodiscard]] int stride() const { return width_ + 2 * border; }
 
  private:
-  const Image& image_;
-  std::vector<int> values_;
+  [[nodiscard]] std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y + border) * static_cast<std::size_t>(stride()) +
+           static_cast<std::size_t>(x + border);
+  }
+  int width_, height_;
+  std::vector<std::int32_t> values_;
 };
 
-constexpr int least_contrast = 8 * 256;  // of 255 * 256: weaker edges are texture
-constexpr int relative_contrast = 8;     // an edge is at least 1/8 of the brightest neighbour
-constexpr int search_length = 12;        // pixels along an edge, each way
-
-/// How far an edge runs from (x, y) in the direction (sx, sy) beside the neighbour at (nx, ny), and whether
-/// it ends towards the far side.
+/// How far an edge runs from `here` in steps of `step` beside the neighbour `across` away, and whether it
+/// ends towards the far side.
 struct End {
   int distance;
   bool away;
 };
-End follow(const Lumas& lumas, int x, int y, int sx, int sy, int nx, int ny, int edge, int gradient) {
+End follow(const std::int32_t* here, int step, int across, int edge, int gradient) {
   for (int i = 1; i <= search_length; ++i) {
-    const int px = x + sx * i;
-    const int py = y + sy * i;
-    const int mean = (lumas.at(px, py) + lumas.at(px + nx, py + ny)) / 2;
+    here += step;
+    const int mean = (here[0] + here[across]) / 2;
     if (std::abs(mean - edge) * 4 >= gradient) return {i, mean < edge};
   }
   return {search_length + 1, false};
@@ -57,20 +76,21 @@ std::uint32_t mix(std::uint32_t a, std::uint32_t b, double weight) {
 }
 
 std::uint32_t smooth(const Image& image, const Lumas& lumas, int x, int y) {
-  const int c = lumas.at(x, y);
-  const int n = lumas.at(x, y - 1);
-  const int s = lumas.at(x, y + 1);
-  const int w = lumas.at(x - 1, y);
-  const int e = lumas.at(x + 1, y);
+  const std::int32_t* here_luma = lumas.at(x, y);
+  const int stride = lumas.stride();
+  const int c = here_luma[0];
+  const int n = here_luma[-stride];
+  const int s = here_luma[stride];
+  const int w = here_luma[-1];
+  const int e = here_luma[1];
   const auto [low, high] = std::minmax({c, n, s, w, e});
   const int contrast = high - low;
   const std::uint32_t here = image.pixels[image.index(x, y)];
-  if (contrast < std::max(least_contrast, high / relative_contrast)) return here;
 
-  const int nw = lumas.at(x - 1, y - 1);
-  const int ne = lumas.at(x + 1, y - 1);
-  const int sw = lumas.at(x - 1, y + 1);
-  const int se = lumas.at(x + 1, y + 1);
+  const int nw = here_luma[-stride - 1];
+  const int ne = here_luma[-stride + 1];
+  const int sw = here_luma[stride - 1];
+  const int se = here_luma[stride + 1];
   const int across_rows = std::abs(nw - 2 * w + sw) + 2 * std::abs(n - 2 * c + s) + std::abs(ne - 2 * e + se);
   const int across_columns =
       std::abs(nw - 2 * n + ne) + 2 * std::abs(w - 2 * c + e) + std::abs(sw - 2 * s + se);
@@ -87,10 +107,10 @@ std::uint32_t smooth(const Image& image, const Lumas& lumas, int x, int y) {
   const int gradient = std::max(1, std::abs(beyond - c));
   const int edge = (beyond + c) / 2;
 
-  const int sx = horizontal ? 1 : 0;
-  const int sy = horizontal ? 0 : 1;
-  const End left = follow(lumas, x, y, -sx, -sy, nx, ny, edge, gradient);
-  const End right = follow(lumas, x, y, sx, sy, nx, ny, edge, gradient);
+  const int along_edge = horizontal ? 1 : stride;
+  const int across = nx + ny * stride;
+  const End left = follow(here_luma, -along_edge, across, edge, gradient);
+  const End right = follow(here_luma, along_edge, across, edge, gradient);
   const End& nearer = left.distance < right.distance ? left : right;
   const int length = left.distance + right.distance - 1;
   // Only the side of the step that the edge leans over moves, by at most half a pixel at its end.
@@ -108,10 +128,27 @@ std::uint32_t smooth(const Image& image, const Lumas& lumas, int x, int y) {
 }  // namespace
 
 Image fxaa(const Image& image) {
-  Image result(image.width, image.height);
+  Image result = image;
+  if (image.pixels.empty()) return result;
   const Lumas lumas(image);
+  // Most pixels lie on no edge: finding that out is what the filter spends its time on.
+  std::vector<std::uint8_t> is_edge(static_cast<std::size_t>(image.width));
   for (int y = 0; y < image.height; ++y) {
-    for (int x = 0; x < image.width; ++x) result.pixels[image.index(x, y)] = smooth(image, lumas, x, y);
+    const std::int32_t* above = lumas.at(0, y - 1);
+    const std::int32_t* here = lumas.at(0, y);
+    const std::int32_t* below = lumas.at(0, y + 1);
+    for (int x = 0; x < image.width; ++x) {
+      const int across_low = std::min(here[x - 1], here[x + 1]);
+      const int across_high = std::max(here[x - 1], here[x + 1]);
+      const int low = std::min(std::min(here[x], across_low), std::min(above[x], below[x]));
+      const int high = std::max(std::max(here[x], across_high), std::max(above[x], below[x]));
+      is_edge[static_cast<std::size_t>(x)] =
+          high - low >= std::max(least_contrast, high / relative_contrast) ? 1 : 0;
+    }
+    for (int x = 0; x < image.width; ++x) {
+      if (is_edge[static_cast<std::size_t>(x)] != 0)
+        result.pixels[image.index(x, y)] = smooth(image, lumas, x, y);
+    }
   }
   return result;
 }

@@ -1,0 +1,149 @@
+// otter cost: what every setting of accuracy costs in time, and what error it leaves.
+
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/open_scene.h"
+#include "app/progress.h"
+#include "cost/report.h"
+#include "display/write_file.h"
+#include "gte/batch.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::vector<std::string> scenes;
+  std::vector<std::string> axes;
+  bool quick = false;
+  int rounds = 9;
+  std::uint32_t frame = 30;
+  std::string size = "320x240", json, csv, html;
+};
+
+volatile std::sig_atomic_t interrupted = 0;
+void note_interrupt(int) { interrupted = 1; }
+
+/// SIGINT sets a flag while this lives.
+class InterruptFlag {
+ public:
+  InterruptFlag() : before_(std::signal(SIGINT, note_interrupt)) {}
+  ~InterruptFlag() { std::signal(SIGINT, before_); }
+  InterruptFlag(const InterruptFlag&) = delete;
+  InterruptFlag& operator=(const InterruptFlag&) = delete;
+
+ private:
+  void (*before_)(int);
+};
+
+scene::Result<std::vector<const cost::Axis*>> chosen_axes(const std::vector<std::string>& names) {
+  std::vector<const cost::Axis*> list;
+  for (const auto& name : names) {
+    const auto* axis = cost::find_axis(name);
+    if (axis == nullptr) {
+      std::string known;
+      for (const auto& a : cost::axes()) known += (known.empty() ? "" : ", ") + std::string(a.name);
+      return scene::fail("--axes " + name + ": expected some of " + known);
+    }
+    list.push_back(axis);
+  }
+  return list;
+}
+
+std::string command_line(const Options& o) {
+  std::string text = "otter cost";
+  for (const auto& scene : o.scenes) text += " " + scene;
+  for (std::size_t i = 0; i < o.axes.size(); ++i) text += (i == 0 ? " --axes " : ",") + o.axes[i];
+  if (o.quick) text += " --quick";
+  if (o.rounds != 9) text += " --rounds " + std::to_string(o.rounds);
+  if (o.size != "320x240") text += " --size " + o.size;
+  return text;
+}
+
+/// To a file, or to stdout where the name is "-".
+scene::Result<void> write(const std::string& name, const std::string& text) {
+  if (name.empty()) return {};
+  if (name != "-") return display::write_file(name, text);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0) return {};
+  return scene::fail("standard output: cannot be written", scene::Exit::failed);
+}
+
+scene::Result<void> write_all(const Options& o, const cost::Report& report) {
+  const bool stdout_taken = o.json == "-" || o.csv == "-" || o.html == "-";
+  if (auto done = write(stdout_taken ? "" : "-", cost::to_text(report)); !done) return done;
+  if (!o.json.empty()) {
+    if (auto done = write(o.json, cost::to_json(report)); !done) return done;
+  }
+  if (!o.csv.empty()) {
+    if (auto done = write(o.csv, cost::to_csv(report)); !done) return done;
+  }
+  if (o.html.empty()) return {};
+  const auto html = cost::to_html(report);
+  if (!html.has_plots)
+    std::fprintf(stderr, "otter: gnuplot cannot be run: %s has no plots\n", o.html.c_str());
+  return write(o.html, html.page);
+}
+
+scene::Result<int> run_cost(Options& o) {
+  if (o.scenes.empty()) o.scenes = {"crates", "corridor"};
+  cost::SweepOptions sweep;
+  auto axes = chosen_axes(o.axes);
+  if (!axes) return tl::make_unexpected(axes.error());
+  sweep.axes = *axes;
+  sweep.quick = o.quick;
+  sweep.rounds = o.rounds;
+  if (auto set = scene::set_knob(sweep.given, "size", o.size); !set) return tl::make_unexpected(set.error());
+  std::vector<scene::Scene> scenes;
+  for (const auto& name : o.scenes) {
+    auto opened = open_scene(name);
+    if (!opened) return tl::make_unexpected(opened.error());
+    scenes.push_back(std::move(*opened));
+  }
+  const InterruptFlag flag;
+  sweep.stop = [] { return interrupted != 0; };
+  cost::Report report{command_line(o), cost::machine_name(), gte::batch_target(), {}};
+  for (auto& scene : scenes) {
+    if (interrupted != 0) break;
+    std::unique_ptr<Progress> progress;
+    sweep.progress = [&, name = scene.name](std::size_t, std::size_t all) {
+      if (!progress) progress = std::make_unique<Progress>("cost " + name, all);
+      progress->step();
+    };
+    cost::Subject subject(std::move(scene), o.frame);
+    auto result = cost::sweep(subject, sweep);
+    if (!result) return tl::make_unexpected(result.error());
+    report.scenes.push_back(std::move(*result));
+  }
+  if (auto written = write_all(o, report); !written) return tl::make_unexpected(written.error());
+  return interrupted != 0 ? static_cast<int>(scene::Exit::interrupted) : 0;
+}
+
+}  // namespace
+
+Action add_cost(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  sub.add_option("scene", options->scenes, "scenes or files [crates corridor]")->type_name("SCENE|FILE");
+  sub.add_option("--axes", options->axes, "measure these axes alone, and no combinations")
+      ->type_name("A,B")
+      ->delimiter(',');
+  sub.add_flag("--quick", options->quick, "fewer settings: under a minute");
+  sub.add_option("--rounds", options->rounds, "how often every setting is timed [9]")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000));
+  sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [30]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1'000'000'000));
+  sub.add_option("--size", options->size, "display mode [320x240]")->type_name("WxH");
+  sub.add_option("--json", options->json, "write all numbers as JSON; - is standard output")
+      ->type_name("FILE");
+  sub.add_option("--csv", options->csv, "write one line a setting")->type_name("FILE");
+  sub.add_option("--html", options->html, "write one page with plots and pictures")->type_name("FILE");
+  return [options] { return run_cost(*options); };
+}
+
+}  // namespace app

@@ -1,0 +1,263 @@
+#include "cost/effects.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "cost/axes.h"
+#include "cost/metrics.h"
+#include "cost/packet_edit.h"
+#include "cost/text.h"
+#include "scene/accurate.h"
+
+namespace cost {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+using Timed = std::function<scene::Result<double>()>;  // draws once; milliseconds
+
+/// A frame as it is, then without one effect after the other.
+class Variants {
+ public:
+  explicit Variants(Timed whole) { add({"whole", 0, 0, 0}, std::move(whole)); }
+  void add(Effect effect, Timed time) {
+    effects_.push_back(std::move(effect));
+    times_.push_back(std::move(time));
+    samples_.emplace_back();
+  }
+  void run() {
+    for (std::size_t i = 0; i < times_.size(); ++i) {
+      if (const auto ms = times_[i]()) samples_[i].push_back(*ms);
+    }
+  }
+  [[nodiscard]] double whole_ms() const { return least(samples_[0]); }
+  void report(std::vector<Effect>& out) const {
+    for (std::size_t i = 1; i < effects_.size(); ++i) {
+      out.push_back(effects_[i]);
+      out.back().ms = samples_[i].empty() ? 0 : whole_ms() - least(samples_[i]);
+    }
+  }
+
+ private:
+  /// What a busy machine adds is never negative: differences are taken of the least times.
+  static double least(const std::vector<double>& samples) { return percentile(samples, 0); }
+
+  std::vector<Effect> effects_;
+  std::vector<Timed> times_;
+  std::vector<std::vector<double>> samples_;
+};
+
+scene::Result<double> total_ms(Subject& subject, const scene::Knobs& knobs) {
+  const auto drawn = subject.draw(knobs);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  return drawn->stages.total();
+}
+
+/// The scene with its fog lifted, or its lamps put out.
+enum class Without : std::uint8_t { fog, light };
+scene::Scene stripped(const scene::Scene& scene, Without what) {
+  const auto strip = [what](scene::World& world) {
+    if (what == Without::fog) {
+      world.depth_cue.on = false;
+    } else {
+      for (auto& material : world.materials) material.lit = false;
+    }
+  };
+  scene::Scene copy = scene;
+  strip(copy.world);
+  copy.animate = [animate = scene.animate, strip](scene::World& world, double seconds) {
+    if (animate) animate(world, seconds);
+    strip(world);
+  };
+  return copy;
+}
+
+/// Knobs that are not at the console's setting: each is an effect that can be taken away.
+std::vector<std::string> raised(const scene::Knobs& knobs) {
+  std::vector<std::string> names;
+  const scene::Knobs console = console_knobs(knobs);
+  for (const auto& knob : scene::knob_table()) {
+    if (knob.get(knobs) != knob.get(console)) names.emplace_back(knob.name);
+  }
+  return names;
+}
+
+scene::Knobs lowered(const scene::Knobs& knobs, std::string_view name) {
+  scene::Knobs less = knobs;
+  for (const auto& knob : scene::knob_table()) {
+    if (knob.name == name) knob.set(less, knob.get(console_knobs(knobs)));
+  }
+  return less;
+}
+
+std::string kernel_name(const gpu::Mode& mode) {
+  static constexpr std::array textures{"flat colour", "4-bit texture", "8-bit texture", "15-bit texture"};
+  static constexpr std::array shades{"", ", Gouraud", ", raw"};
+  static constexpr std::array writes{"", ", masked", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
+  const bool untextured = mode.surface.texture == gpu::Texture::none;
+  std::string name = untextured && mode.surface.shade == gpu::Shade::gouraud
+                         ? "Gouraud colour"
+                         : std::string(textures[static_cast<std::size_t>(mode.surface.texture)]) +
+                               shades[static_cast<std::size_t>(mode.surface.shade)];
+  if (mode.surface.dither) name += ", dither";
+  name += writes[static_cast<std::size_t>(mode.write)];
+  return mode.depth ? name + ", depth" : name;
+}
+
+std::string kernel_name(const gpu::canvas::Mode& mode) {
+  static constexpr std::array textures{"colour", "4-bit texture", "8-bit texture", "15-bit texture"};
+  static constexpr std::array blends{"", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
+  std::string name = std::string("accurate: ") + textures[static_cast<std::size_t>(mode.texture)] +
+                     blends[static_cast<std::size_t>(mode.blend)];
+  return mode.depth ? name + ", depth" : name;
+}
+
+template <class Mode, std::size_t n>
+void add_kernels(const std::array<std::uint64_t, n>& counts, const char* unit,
+                 std::vector<std::string>& out) {
+  std::vector<std::pair<std::uint64_t, std::size_t>> ran;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (counts[i] != 0) ran.emplace_back(counts[i], i);
+  }
+  std::ranges::sort(ran, std::ranges::greater{});
+  for (const auto& [count, i] : ran)
+    out.push_back(kernel_name(Mode::at(i)) + ": " + std::to_string(count) + unit);
+}
+
+void find_kernels_and_buffers(const gpu::Gpu& gpu, const Drawn& drawn, EffectReport& report) {
+  add_kernels<gpu::Mode>(gpu.counters().kernels, " triangles and rectangles", report.kernels);
+  const auto add = [&report](std::string name, std::uint64_t bytes) {
+    if (bytes != 0) report.buffers.push_back({std::move(name), bytes});
+  };
+  add("list in main RAM", drawn.stats.ram_bytes);
+  add("depth plane", gpu.depth_bytes());
+  add("queue of semi-transparent polygons", gpu.queue_bytes());
+  if (gpu.canvas() == nullptr) return;
+  add_kernels<gpu::canvas::Mode>(gpu.canvas()->counters().runs, " runs", report.kernels);
+  for (const auto& buffer : gpu.canvas()->buffers()) add(std::string(buffer.name), buffer.bytes);
+}
+
+/// Primitives and written pixels of each packet effect.
+std::vector<Effect> count_packets(const gpu::Trace& trace) {
+  std::vector<std::uint64_t> written(trace.draws.size());
+  for (const auto& event : trace.history) {
+    if (!event.rejected) ++written[event.draw];
+  }
+  std::vector<Effect> effects;
+  for (const auto& asked : packet_effects()) {
+    Effect effect{std::string(asked.name), 0, 0, 0};
+    for (std::size_t i = 0; i < trace.draws.size(); ++i) {
+      if (!asked.asks(trace.draws[i])) continue;
+      ++effect.primitives;
+      effect.pixels += written[i];
+    }
+    effects.push_back(effect);
+  }
+  return effects;
+}
+
+/// Draws whose texels lie where the canvas stands in for VRAM: they see what VRAM holds, not what was drawn.
+bool reads_frame(const gpu::Primitive& p, const scene::Knobs& knobs) {
+  return p.is_textured() && p.state.page_x() < knobs.width && p.state.page_y() < 480;
+}
+
+}  // namespace
+
+scene::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
+                                         const scene::Knobs& knobs, int rounds) {
+  Subject subject(scene, frame);
+  EffectReport report{scene.name, frame, knobs.width, knobs.height, 0, {}, {}, {}, {}};
+  const auto drawn = subject.draw(knobs);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  auto words = subject.words(knobs);
+  if (!words) return tl::make_unexpected(words.error());
+  const auto counted = subject.draw_words(knobs, *words);
+  if (!counted) return tl::make_unexpected(counted.error());
+  find_kernels_and_buffers(subject.gpu(), *drawn, report);
+  gpu::Trace trace;
+  if (auto traced = subject.trace_console(knobs, trace); !traced) return tl::make_unexpected(traced.error());
+  std::uint64_t polygons = 0;
+  std::uint64_t pixels = 0;
+  for (const auto& draw : trace.draws) {
+    polygons += draw.kind == gpu::Kind::polygon ? 1 : 0;
+    if (subject.uses_canvas(knobs) && reads_frame(draw, knobs) && report.notes.empty()) {
+      report.notes.emplace_back(
+          "a texture page lies in the frame buffer: it is read from VRAM, which the canvas does "
+          "not draw into");
+    }
+  }
+  for (const auto& event : trace.history) pixels += event.rejected ? 0 : 1;
+
+  Variants packets([&] { return subject.draw_words(knobs, *words); });
+  const auto counts = count_packets(trace);
+  std::vector<std::vector<std::uint32_t>> edited(counts.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i].primitives == 0) continue;
+    edited[i] = without(*words, i);
+    packets.add(counts[i], [&, i] { return subject.draw_words(knobs, edited[i]); });
+  }
+  Variants frames([&] { return total_ms(subject, knobs); });
+  for (const auto& name : raised(knobs)) {
+    const auto less = lowered(knobs, name);
+    std::string value;
+    for (const auto& knob : scene::knob_table()) value += knob.name == name ? knob.get(knobs) : "";
+    frames.add({joined({name, " ", value}), polygons, pixels, 0},
+               [&, less] { return total_ms(subject, less); });
+  }
+  Subject clear(stripped(scene, Without::fog), frame);
+  Subject unlit(stripped(scene, Without::light), frame);
+  if (scene.world.depth_cue.on) {
+    frames.add({"depth cue (fog)", polygons, pixels, 0}, [&] { return total_ms(clear, knobs); });
+  }
+  if (std::ranges::any_of(scene.world.materials, &scene::Material::lit)) {
+    frames.add({"lighting", polygons, pixels, 0}, [&] { return total_ms(unlit, knobs); });
+  }
+  for (int round = 0; round < rounds; ++round) {
+    packets.run();
+    frames.run();
+  }
+  report.ms = frames.whole_ms();
+  packets.report(report.effects);
+  frames.report(report.effects);
+  return report;
+}
+
+std::string to_text(const EffectReport& report) {
+  std::string text =
+      joined({report.scene, ", frame ", std::to_string(report.frame), ", ", std::to_string(report.width), "x",
+              std::to_string(report.height), ": ", number(report.ms),
+              " ms\n\neffect                         primitives     pixels        ms\n"});
+  std::array<char, 160> line{};
+  for (const auto& e : report.effects) {
+    std::snprintf(line.data(), line.size(), "  %-28s %10llu %10llu %9.3f\n", e.name.c_str(),
+                  static_cast<unsigned long long>(e.primitives), static_cast<unsigned long long>(e.pixels),
+                  e.ms);
+    text += line.data();
+  }
+  if (report.effects.empty()) text += "  none: flat polygons in list order\n";
+  text += "\nkernels that ran\n";
+  for (const auto& kernel : report.kernels) text += joined({"  ", kernel, "\n"});
+  text += "\nbuffers besides VRAM\n";
+  for (const auto& buffer : report.buffers)
+    text += joined({"  ", buffer.name, ": ", bytes(buffer.bytes), "\n"});
+  for (const auto& note : report.notes) text += joined({"\nnote: ", note, "\n"});
+  return text;
+}
+
+std::string to_json(const EffectReport& report) {
+  Json effects = Json::array();
+  for (const auto& e : report.effects) {
+    effects.push_back({{"name", e.name}, {"primitives", e.primitives}, {"pixels", e.pixels}, {"ms", e.ms}});
+  }
+  Json buffers = Json::array();
+  for (const auto& b : report.buffers) buffers.push_back({{"name", b.name}, {"bytes", b.bytes}});
+  const Json json{{"schema", "otter.effects/1"}, {"scene", report.scene},     {"frame", report.frame},
+                  {"width", report.width},       {"height", report.height},   {"ms", report.ms},
+                  {"effects", effects},          {"kernels", report.kernels}, {"buffers", buffers},
+                  {"notes", report.notes}};
+  return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace cost

@@ -1,0 +1,157 @@
+#include "cost/subject.h"
+
+#include <chrono>
+
+#include "ot/walker.h"
+#include "scene/accurate.h"
+#include "scene/pipeline.h"
+
+namespace cost {
+namespace {
+
+double now_ms() {
+  const auto since = std::chrono::steady_clock::now().time_since_epoch();
+  return std::chrono::duration<double, std::milli>(since).count();
+}
+
+}  // namespace
+
+Subject::Subject(scene::Scene scene, std::uint32_t frame) : scene_(std::move(scene)), frame_(frame) {}
+
+scene::FrameBuilder& Subject::builder(const scene::Knobs& knobs) {
+  auto& made = builders_[{knobs.width, knobs.height, knobs.subdivide}];
+  if (!made) made = std::make_unique<scene::FrameBuilder>(scene_, knobs);
+  if (uploaded_ != made.get()) {
+    made->upload(*gpu_);
+    uploaded_ = made.get();
+  }
+  return *made;
+}
+
+scene::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
+  auto& build = builder(knobs);
+  gpu_->set_trace(nullptr);
+  presenter_.forget();
+  const int before = std::max(1, display::Presenter::frames_before(knobs));
+  scene::Result<scene::FrameStats> stats;
+  double filter = 0;
+  for (int i = 0; i <= before; ++i) {
+    stats = scene::render_frame(build, seconds(), knobs, ram_, *gpu_);
+    if (!stats) return tl::make_unexpected(stats.error());
+    const double start = now_ms();
+    picture_ = presenter_.show(*gpu_, knobs);
+    filter = now_ms() - start;
+  }
+  // The walk alone, over the list that is still in RAM.
+  auto frame = build.build(seconds(), knobs, ram_);
+  if (!frame) return tl::make_unexpected(frame.error());
+  std::uint32_t sum = 0;
+  const double start = now_ms();
+  (void)ot::walk(ram_, frame->head, [&sum](std::uint32_t, std::span<const std::uint32_t> payload) {
+    for (auto w : payload) sum += w;
+  });
+  Drawn drawn;
+  drawn.stages.walk = now_ms() - start;
+  if (sum == 1) drawn.stages.walk += 0;  // the sum is used, so the walk is made
+  drawn.stats = *stats;
+  drawn.stages.gte = stats->gte_ms;
+  drawn.stages.ot = stats->ot_ms;
+  drawn.stages.raster = std::max(0.0, stats->raster_ms - drawn.stages.walk);
+  drawn.stages.filter = filter;
+  drawn.bytes = stats->ram_bytes + gpu_->depth_bytes() + gpu_->queue_bytes() + presenter_.bytes();
+  if (gpu_->canvas() != nullptr) {
+    for (const auto& buffer : gpu_->canvas()->buffers()) drawn.bytes += buffer.bytes;
+  } else {
+    drawn.bytes += static_cast<std::uint64_t>(knobs.width) * static_cast<std::uint64_t>(knobs.height) * 2;
+  }
+  return drawn;
+}
+
+scene::Result<void> Subject::trace(const scene::Knobs& knobs, gpu::Trace& trace) {
+  auto& build = builder(knobs);
+  gpu_->set_trace(&trace);
+  const auto drawn = scene::render_frame(build, seconds(), knobs, ram_, *gpu_);
+  gpu_->set_trace(nullptr);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  return {};
+}
+
+scene::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
+  const scene::Knobs console;
+  knobs.position = console.position;
+  knobs.texture = console.texture;
+  knobs.filter = console.filter;
+  knobs.colour = console.colour;
+  knobs.antialias = console.antialias;
+  knobs.fog = console.fog;
+  knobs.resolution = console.resolution;
+  to.keep_history = true;
+  return trace(knobs, to);
+}
+
+scene::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
+  knobs.antialias = {};
+  knobs.resolution = 1;
+  knobs.filter = scene::Filter::nearest;
+  // 24-bit colour asks for a canvas and changes no coordinate; the pieces of a BSP have their polygons'
+  // coordinates.
+  knobs.colour = scene::Colour::bits24;
+  if (knobs.visibility == scene::Visibility::bsp) knobs.visibility = scene::Visibility::ot;
+  const auto& build = builder(knobs);
+  auto options = scene::canvas_options(knobs, build.world(), build.units_per_world());
+  options->trace = true;
+  gpu_->set_canvas(options);  // use_targets keeps the trace of a canvas that has one
+  gpu::Trace to;
+  const auto traced = trace(knobs, to);
+  if (!traced) return tl::make_unexpected(traced.error());
+  const auto ids = gpu_->canvas()->ids();
+  const auto texcoords = gpu_->canvas()->texcoords();
+  Traced result{{ids.begin(), ids.end()}, {texcoords.begin(), texcoords.end()}, std::move(to.draws)};
+  gpu_->set_canvas({});
+  return result;
+}
+
+scene::Result<std::vector<std::uint32_t>> Subject::words(const scene::Knobs& knobs) {
+  auto& build = builder(knobs);
+  auto frame = build.build(seconds(), knobs, ram_);
+  if (!frame) return tl::make_unexpected(frame.error());
+  std::vector<std::uint32_t> list;
+  for (;;) {
+    const auto walked =
+        ot::walk(ram_, frame->head, [&list](std::uint32_t, std::span<const std::uint32_t> payload) {
+          list.insert(list.end(), payload.begin(), payload.end());
+        });
+    if (!walked) return scene::fail(walked.message(), scene::Exit::failed);
+    buffer_y_ = frame->buffer_y;
+    if (frame->nearer_lists == 0) return list;
+    if (auto next = build.next(*frame, ram_); !next) return tl::make_unexpected(next.error());
+  }
+}
+
+scene::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words) {
+  gpu_->set_trace(nullptr);
+  if (auto used = scene::use_targets(builder(knobs), knobs, *gpu_); !used)
+    return tl::make_unexpected(used.error());
+  gpu_->reset_counters();
+  if (gpu_->canvas() != nullptr) gpu_->canvas()->reset_counters();
+  const double start = now_ms();
+  gpu_->begin_frame();
+  if (gpu_->canvas() != nullptr) gpu_->canvas()->begin_frame(0, buffer_y_);
+  gpu_->gp0(words);
+  if (gpu_->canvas() != nullptr) gpu_->canvas()->end_frame();
+  gpu_->end_frame();
+  return now_ms() - start;
+}
+
+bool Subject::uses_canvas(const scene::Knobs& knobs) {
+  const auto& build = builder(knobs);
+  return scene::canvas_options(knobs, build.world(), build.units_per_world()).has_value();
+}
+
+std::vector<scene::ScreenPolygon> Subject::polygons(const scene::Knobs& knobs) {
+  std::vector<scene::ScreenPolygon> list;
+  builder(knobs).polygons(seconds(), knobs, list);
+  return list;
+}
+
+}  // namespace cost

@@ -1,0 +1,88 @@
+#pragma once
+// One scene under measurement: draws its frame with any knobs, timed stage by stage.
+
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "display/picture.h"
+#include "display/present.h"
+#include "gpu/canvas/canvas.h"
+#include "gpu/gpu.h"
+#include "gpu/trace.h"
+#include "ot/main_ram.h"
+#include "scene/frame.h"
+#include "scene/knobs.h"
+
+namespace cost {
+
+/// Milliseconds of one frame.
+struct Stages {
+  double gte = 0;     ///< animate, transform, light
+  double ot = 0;      ///< cull, clip, packets, insertion
+  double walk = 0;    ///< the list followed, words sent nowhere
+  double raster = 0;  ///< words decoded and drawn: draw time less walk
+  double filter = 0;  ///< samples to pixels, filters after the frame, scan-out
+  [[nodiscard]] double total() const { return gte + ot + walk + raster + filter; }
+};
+
+/// A frame and what is known about it.
+struct Drawn {
+  Stages stages;
+  scene::FrameStats stats;
+  std::uint64_t bytes = 0;  ///< memory the frame needs: lists in main RAM, frame, depth, samples, history
+};
+
+/// A frame with the writer and the texture coordinates of each pixel, one sample a pixel.
+struct Traced {
+  std::vector<std::uint32_t> writers;    ///< draw + 1 per pixel; 0: nobody
+  std::vector<std::uint32_t> texcoords;  ///< as gpu::canvas::Canvas::texcoords
+  std::vector<gpu::Primitive> draws;
+};
+
+class Subject {
+ public:
+  Subject(scene::Scene scene, std::uint32_t frame);
+  Subject(const Subject&) = delete;
+  Subject& operator=(const Subject&) = delete;
+
+  [[nodiscard]] const std::string& name() const { return scene_.name; }
+  [[nodiscard]] std::uint32_t frame() const { return frame_; }
+
+  /// Draws the frame as often as its knobs need to settle (`warm`: once at least), then once more, timed.
+  scene::Result<Drawn> draw(const scene::Knobs& knobs);
+  /// What the last draw() shows, at the resolution of its knobs.
+  [[nodiscard]] const display::Picture& picture() const { return picture_; }
+  [[nodiscard]] const gpu::Gpu& gpu() const { return *gpu_; }
+
+  /// The frame drawn on the console's target with a history of every write, for inspection.
+  scene::Result<void> trace_console(scene::Knobs knobs, gpu::Trace& to);
+  /// The frame drawn on a canvas of one sample that keeps who wrote what.
+  scene::Result<Traced> trace_canvas(scene::Knobs knobs);
+  /// The words of the frame, list after list, as a walk sends them.
+  scene::Result<std::vector<std::uint32_t>> words(const scene::Knobs& knobs);
+  /// Draws such words on the targets of `knobs`: milliseconds.
+  scene::Result<double> draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words);
+  [[nodiscard]] bool uses_canvas(const scene::Knobs& knobs);
+  /// The polygons as they would be drawn, before any is.
+  std::vector<scene::ScreenPolygon> polygons(const scene::Knobs& knobs);
+
+ private:
+  scene::FrameBuilder& builder(const scene::Knobs& knobs);
+  [[nodiscard]] double seconds() const { return frame_ / 60.0; }
+  scene::Result<void> trace(const scene::Knobs& knobs, gpu::Trace& to);
+
+  scene::Scene scene_;
+  std::uint32_t frame_;
+  ot::MainRam ram_{ot::RamSize::mib8};
+  std::unique_ptr<gpu::Gpu> gpu_ = std::make_unique<gpu::Gpu>();
+  std::map<std::array<int, 3>, std::unique_ptr<scene::FrameBuilder>>
+      builders_;                             // by width, height, subdivide
+  scene::FrameBuilder* uploaded_ = nullptr;  // whose textures VRAM holds
+  int buffer_y_ = 0;                         // of the last words()
+  display::Presenter presenter_;
+  display::Picture picture_;
+};
+
+}  // namespace cost

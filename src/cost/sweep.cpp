@@ -1,0 +1,174 @@
+#include "cost/sweep.h"
+
+#include <algorithm>
+
+#include "cost/metrics.h"
+
+namespace cost {
+namespace {
+
+/// A frame to be drawn; rows that ask for the same knobs share it.
+struct Job {
+  scene::Knobs knobs;
+  std::vector<std::size_t> rows;
+  std::vector<Stages> samples;
+  std::uint64_t bytes = 0;
+};
+
+scene::Knobs base_of(Direction direction, const Axis& axis, const scene::Knobs& given) {
+  if (direction == Direction::up) return console_knobs(given);
+  scene::Knobs knobs = accurate_knobs(given);
+  if (axis.without_samples) knobs.antialias = {};
+  return knobs;
+}
+
+std::vector<Row> plan(const SweepOptions& options) {
+  std::vector<Row> rows;
+  std::vector<const Axis*> wanted = options.axes;
+  if (wanted.empty()) {
+    for (const auto& axis : axes()) wanted.push_back(&axis);
+  }
+  for (const Axis* axis : wanted) {
+    for (const auto direction : {Direction::up, Direction::down}) {
+      for (std::size_t i = 0; i < axis->settings.size(); ++i) {
+        const auto& setting = axis->settings[i];
+        if (options.quick && !setting.in_quick) continue;
+        Row row;
+        row.axis = axis;
+        row.direction = direction;
+        row.setting = setting.name;
+        row.knobs = with(base_of(direction, *axis, options.given), setting);
+        row.is_console = i == axis->console;
+        rows.push_back(std::move(row));
+      }
+    }
+  }
+  if (!options.axes.empty()) return rows;
+  for (auto& combination : combinations(options.given, options.quick)) {
+    Row row;
+    row.direction = Direction::cross;
+    row.setting = std::move(combination.name);
+    row.knobs = combination.knobs;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::vector<Job> jobs_of(const std::vector<Row>& rows) {
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto same = std::ranges::find(jobs, rows[i].knobs, &Job::knobs);
+    if (same != jobs.end()) {
+      same->rows.push_back(i);
+    } else {
+      jobs.push_back({rows[i].knobs, {i}, {}, 0});
+    }
+  }
+  return jobs;
+}
+
+template <class Get>
+double median_of(const std::vector<Stages>& samples, Get&& get) {
+  std::vector<double> values;
+  for (const auto& s : samples) values.push_back(get(s));
+  return median(values);
+}
+
+void summarise(const Job& job, Row& row) {
+  row.stages = {median_of(job.samples, [](const Stages& s) { return s.gte; }),
+                median_of(job.samples, [](const Stages& s) { return s.ot; }),
+                median_of(job.samples, [](const Stages& s) { return s.walk; }),
+                median_of(job.samples, [](const Stages& s) { return s.raster; }),
+                median_of(job.samples, [](const Stages& s) { return s.filter; })};
+  std::vector<double> totals;
+  for (const auto& s : job.samples) totals.push_back(s.total());
+  row.ms = median(totals);
+  row.spread = spread(totals);
+  row.bytes = job.bytes;
+}
+
+}  // namespace
+
+const Row* SceneResult::find(const Axis& axis, Direction direction, std::string_view setting) const {
+  for (const auto& row : rows) {
+    if (row.axis == &axis && row.direction == direction && row.setting == setting) return &row;
+  }
+  return nullptr;
+}
+
+void mark_front(std::vector<Row>& rows) {
+  const auto competes = [](const Row& row) { return row.direction == Direction::cross; };
+  for (auto& row : rows) {
+    row.on_front = competes(row) && std::ranges::none_of(rows, [&](const Row& other) {
+                     const bool no_worse =
+                         other.ms <= row.ms && other.errors.colour_rms <= row.errors.colour_rms;
+                     const bool better = other.ms < row.ms || other.errors.colour_rms < row.errors.colour_rms;
+                     return competes(other) && no_worse && better;
+                   });
+  }
+}
+
+scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
+  SceneResult result;
+  result.scene = subject.name();
+  result.frame = subject.frame();
+  result.width = options.given.width;
+  result.height = options.given.height;
+  auto rows = plan(options);
+  auto jobs = jobs_of(rows);
+  const std::size_t steps = jobs.size() * static_cast<std::size_t>(options.rounds);
+  std::size_t done = 0;
+  const auto stopped = [&] { return options.stop && options.stop(); };
+  const auto step = [&] {
+    if (options.progress) options.progress(++done, steps);
+  };
+
+  ErrorMeter meter(subject, options.given);
+  if (auto ready = meter.prepare(); !ready) return tl::make_unexpected(ready.error());
+  result.reference = meter.reference();
+
+  // Errors in the first round: they do not change from round to round.
+  for (auto& job : jobs) {
+    if (stopped()) break;
+    const auto drawn = subject.draw(job.knobs);
+    const auto errors = drawn ? meter.measure(job.knobs) : tl::make_unexpected(drawn.error());
+    step();
+    if (!errors) {
+      const Row& first = rows[job.rows.front()];
+      result.skipped.push_back(std::string(first.axis_name()) + " " + first.setting + ": " +
+                               errors.error().text);
+      continue;
+    }
+    job.bytes = drawn->bytes;
+    job.samples.push_back(drawn->stages);  // the first round: what a stopped sweep can report
+    const auto picture = shrunk(subject.picture(), job.knobs.resolution);
+    for (const auto r : job.rows) {
+      rows[r].errors = *errors;
+      rows[r].picture = picture;
+      rows[r].difference = difference(picture, result.reference);
+    }
+  }
+  std::erase_if(jobs, [&](const Job& job) { return rows[job.rows.front()].picture.width == 0; });
+
+  for (int round = 1; round < options.rounds && !stopped(); ++round) {
+    for (auto& job : jobs) {
+      if (stopped()) break;
+      if (const auto drawn = subject.draw(job.knobs)) job.samples.push_back(drawn->stages);
+      step();
+    }
+  }
+  result.complete = !stopped();
+  result.rounds = options.rounds;
+  for (const auto& job : jobs) result.rounds = std::min(result.rounds, static_cast<int>(job.samples.size()));
+  for (const auto& job : jobs) {
+    for (const auto r : job.rows) {
+      if (!job.samples.empty()) summarise(job, rows[r]);
+    }
+  }
+  std::erase_if(rows, [](const Row& row) { return row.picture.width == 0 || row.ms <= 0; });
+  mark_front(rows);
+  result.rows = std::move(rows);
+  return result;
+}
+
+}  // namespace cost

@@ -1,0 +1,70 @@
+#pragma once
+// Runs a scene over the settings of the axes, interleaved, and keeps medians.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cost/axes.h"
+#include "cost/errors.h"
+#include "cost/subject.h"
+
+namespace cost {
+
+struct SweepOptions {
+  std::vector<const Axis*> axes;  ///< empty: all
+  bool quick = false;             ///< fewer settings
+  int rounds = 9;
+  scene::Knobs given;          ///< picture size, table length, near and far
+  std::function<bool()> stop;  ///< asked between frames; true ends the sweep with what it has
+  std::function<void(std::size_t done, std::size_t all)> progress;
+};
+
+enum class Direction : std::uint8_t {
+  up,     ///< one axis raised from the console's settings
+  down,   ///< one axis lowered from the most accurate settings
+  cross,  ///< a combination across axes
+};
+inline constexpr std::string_view direction_names[] = {"up", "down", "cross"};
+
+/// One setting, measured.
+struct Row {
+  const Axis* axis = nullptr;  ///< nullptr: a combination
+  Direction direction = Direction::up;
+  std::string setting;
+  scene::Knobs knobs;
+  Stages stages;      ///< medians
+  double ms = 0;      ///< median of the whole frame
+  double spread = 0;  ///< distance between the quartiles of the whole frame
+  std::uint64_t bytes = 0;
+  Errors errors;
+  display::Picture picture,
+      difference;           ///< at the console's resolution; difference from the reference, times 4
+  bool is_console = false;  ///< the console's setting of its axis
+  bool on_front = false;    ///< cross: no other is both faster and nearer to the reference
+
+  [[nodiscard]] std::string_view axis_name() const { return axis != nullptr ? axis->name : "cross"; }
+};
+
+struct SceneResult {
+  std::string scene;
+  std::uint32_t frame = 0;
+  int width = 0, height = 0, rounds = 0;  ///< rounds completed by every row
+  std::vector<Row> rows;
+  display::Picture reference;
+  std::vector<std::string> skipped;  ///< settings that could not be drawn, and why
+  bool complete = true;              ///< false: stopped early
+
+  [[nodiscard]] const Row* find(const Axis& axis, Direction direction, std::string_view setting) const;
+};
+
+/// Error: the reference itself cannot be drawn.
+scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options);
+
+/// Marks the rows that no other row beats in both time and colour error.
+void mark_front(std::vector<Row>& rows);
+
+/// What was found for one axis, in one sentence made from its numbers. Empty if the axis was not measured.
+std::string sentence(const SceneResult& result, const Axis& axis);
+
+}  // namespace cost

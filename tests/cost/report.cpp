@@ -1,0 +1,82 @@
+#include "cost/report.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "scenes.h"
+
+using namespace cost_test;
+
+namespace {
+
+cost::SceneResult quick_sweep(std::vector<const cost::Axis*> axes, int stop_after = -1) {
+  cost::Subject subject(runway(false), 0);
+  cost::SweepOptions options;
+  options.axes = std::move(axes);
+  options.quick = true;
+  options.rounds = 2;
+  int asked = 0;
+  options.stop = [&] { return stop_after >= 0 && ++asked > stop_after; };
+  auto result = cost::sweep(subject, options);
+  REQUIRE(result);
+  return *result;
+}
+
+}  // namespace
+
+TEST_SUITE("cost") {
+  TEST_CASE(
+      "a sweep measures every setting of an axis in both directions, and says what it found in a sentence") {
+    const auto* axis = cost::find_axis("texture");
+    const auto result = quick_sweep({axis});
+    const auto wanted = std::ranges::count_if(axis->settings, &cost::Setting::in_quick);
+    CHECK(static_cast<std::ptrdiff_t>(result.rows.size()) == 2 * wanted);
+    CHECK(result.complete);
+    CHECK(result.rounds == 2);
+    for (const auto& row : result.rows) {
+      CHECK(row.ms > 0);
+      CHECK(row.stages.raster > 0);
+      CHECK(row.picture.width == 320);
+    }
+    const auto text = cost::sentence(result, *axis);
+    CHECK(text.find("perspective takes") != std::string::npos);
+    CHECK(text.find("texels") != std::string::npos);
+    CHECK(cost::sentence(result, *cost::find_axis("fog")).empty());
+  }
+
+  TEST_CASE("a sweep that is stopped reports what it has") {
+    const auto* axis = cost::find_axis("texture");
+    const auto result = quick_sweep({axis}, 9);  // in the second round of errors and timing
+    CHECK_FALSE(result.complete);
+    CHECK(result.rows.size() < 2 * axis->settings.size());
+  }
+
+  TEST_CASE("JSON, CSV and HTML hold every setting, and HTML needs no other file") {
+    cost::Report report{
+        "otter cost runway", "a machine", "a target", {quick_sweep({cost::find_axis("colour")})}};
+    const auto& rows = report.scenes[0].rows;
+    const auto json = nlohmann::json::parse(cost::to_json(report));
+    CHECK(json["schema"] == "otter.cost/1");
+    CHECK(json["scene"] == "runway");
+    CHECK(json["width"] == 320);
+    REQUIRE(json["settings"].size() == rows.size());
+    for (const auto* key : {"axis", "direction", "setting", "ms", "stages", "bytes", "errors"}) {
+      CHECK(json["settings"][0].contains(key));
+    }
+    const auto csv = cost::to_csv(report);
+    CHECK(std::ranges::count(csv, '\n') == static_cast<std::ptrdiff_t>(rows.size()) + 1);
+    const auto html = cost::to_html(report).page;
+    CHECK(html.find("http://") == html.find("http://www.w3.org"));  // names of SVG, nothing to load
+    CHECK(html.find("src=\"data:image/png;base64,") != std::string::npos);
+    CHECK(html.find("Keeping colours") != std::string::npos);
+    CHECK(cost::to_text(report).find("15-dither") != std::string::npos);
+  }
+
+  TEST_CASE("base64 of a picture is a PNG") {
+    const auto text = cost::png_base64(display::Picture(3, 2, display::Rgba{1, 2, 3}));
+    CHECK(text.starts_with("iVBORw0KGgo"));
+    CHECK(text.size() % 4 == 0);
+  }
+}
