@@ -127,8 +127,12 @@ class DumpSource : public Source {
                              std::to_string(end.first_without_depth),
                          scene::Exit::failed);
     }
-    return Watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}),
-                   gpu_.vram().pixels()};
+    Watched watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}),
+                    gpu_.vram().pixels()};
+    watched.report.lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
+    watched.report.lint.push_back(
+        {"links", "", "not available: a dump holds no list, only the words it sent"});
+    return watched;
   }
   [[nodiscard]] std::uint32_t first_frame() const override { return 1; }
 
