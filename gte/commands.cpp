@@ -306,7 +306,8 @@ void mvmva(Registers& r, Command c) {
   Limits limits;
   const Vector x = c.v() == 3 ? ir_vector(r) : vector(r.v[c.v()]);
   const Matrix garbage = c.mx() == 3 ? mvmva_matrix(r, c) : Matrix{};
-  const Matrix& m = *std::array<const Matrix*, 4>{&r.rt, &r.llm, &r.lcm, &garbage}[c.mx()];
+  const std::array<const Matrix*, 4> matrices{&r.rt, &r.llm, &r.lcm, &garbage};
+  const Matrix& m = *matrices[c.mx()];
   Sums sums;
   switch (c.cv()) {
     case 0:

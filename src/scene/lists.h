@@ -40,7 +40,6 @@ struct BucketRule {
 };
 
 /// Words of a primitive's own node; at most 14.
-inline constexpr std::size_t most_primitive_words = 14;
 std::size_t encode(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out);
 /// Words of its annotation node; at most 14.
 std::size_t encode_annotation(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out);

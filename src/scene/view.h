@@ -13,7 +13,6 @@
 namespace scene {
 
 /// OTZ counts 0..65535 for z 0..32767, so bucket = OTZ * buckets >> 16, a plain shift for powers of two.
-inline constexpr int otz_z_limit = 32768;
 inline constexpr std::int16_t zsf3 = 2731;  ///< 4096 * 65536 / (3 * 32768), rounded
 inline constexpr std::int16_t zsf4 = 2048;  ///< 4096 * 65536 / (4 * 32768)
 
@@ -24,8 +23,6 @@ struct Projection {
   std::uint16_t h = 290;      ///< H: (height / 2) / tan_half_fov, rounded
   double stretch_x = 1;       ///< width / (height * 4 / 3)
   std::int32_t near_z = 146;  ///< least z of a projected vertex: the camera's, but above H / 2
-  [[nodiscard]] double centre_x() const { return width / 2; }
-  [[nodiscard]] double centre_y() const { return height / 2; }
 };
 
 /// Vertices are projected within this rectangle; edges that leave it are cut there. Rounding a cut to whole

@@ -2,10 +2,16 @@
 
 #include <png.h>
 
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "dump_reader.h"
+#include "gpu/dump.h"
 #include "gpu/gpu.h"
 #include "tests/vectors.h"
 
@@ -21,6 +27,18 @@ std::vector<png_byte> read_rgb(const std::filesystem::path& path) {
   if (image.width != 1024 || image.height != 512) pixels.clear();
   if (png_image_finish_read(&image, nullptr, pixels.data(), 0, nullptr) == 0) return {};
   return pixels;
+}
+
+std::vector<char> read_bytes(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void replay(const std::filesystem::path& path, gpu::Gpu& gpu) {
+  const std::vector<char> bytes = read_bytes(path);
+  const auto dump = gpu::parse_dump(std::as_bytes(std::span(bytes)));
+  REQUIRE_MESSAGE(dump.value.has_value(), dump.message);
+  gpu::replay(*dump.value, gpu);
 }
 
 struct Difference {
@@ -57,7 +75,7 @@ TEST_SUITE("gpu") {
       REQUIRE_FALSE(expected.empty());
       REQUIRE_FALSE(mask.empty());
       gpu::Gpu gpu;
-      tests::replay(entry.path(), gpu);
+      replay(entry.path(), gpu);
       const Difference difference = compare(gpu.vram(), expected, mask);
       CAPTURE(difference.first % 1024);
       CAPTURE(difference.first / 1024);
@@ -76,10 +94,10 @@ TEST_SUITE("gpu") {
       const std::string name = entry.path().stem().string();
       if (entry.path().extension() != ".psxgpu" || !name.starts_with("random-")) continue;
       CAPTURE(name);
-      const auto expected = tests::read_bytes(*folder / (name + ".vram"));
+      const auto expected = read_bytes(*folder / (name + ".vram"));
       REQUIRE(expected.size() == gpu::Vram::size * 2);
       const auto gpu = std::make_unique<gpu::Gpu>();
-      tests::replay(entry.path(), *gpu);
+      replay(entry.path(), *gpu);
       std::size_t differing = 0, first = 0;
       for (std::size_t i = 0; i < gpu::Vram::size; ++i) {
         std::uint16_t pixel = 0;

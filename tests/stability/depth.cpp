@@ -17,6 +17,7 @@
 #include "ot/walker.h"
 #include "scene/angle.h"
 #include "stability/measure.h"
+#include "stability/send.h"
 #include "stability/triangulation.h"
 
 using gpu::DepthFormat;
@@ -26,14 +27,9 @@ using gpu::Gpu;
 using stability::between;
 using stability::Measure;
 using stability::Random;
+using stability::send;
 
 namespace {
-
-template <class T>
-void send(Gpu& gpu, const T& value) {
-  std::array<std::uint32_t, 16> words{};
-  gpu.gp0(std::span(words).first(ot::encode(value, words)));
-}
 
 struct Corner {
   int x = 0, y = 0;

@@ -12,6 +12,7 @@
 #include "gpu/gpu.h"
 #include "ot/packet.h"
 #include "stability/measure.h"
+#include "stability/send.h"
 #include "stability/triangulation.h"
 
 using gpu::Corners;
@@ -20,14 +21,9 @@ using gpu::Point;
 using stability::between;
 using stability::Measure;
 using stability::Random;
+using stability::send;
 
 namespace {
-
-template <class T>
-void send(Gpu& gpu, const T& value) {
-  std::array<std::uint32_t, 16> words{};
-  gpu.gp0(std::span(words).first(ot::encode(value, words)));
-}
 
 ot::Polygon counting(const Corners& t) {
   ot::Polygon p;

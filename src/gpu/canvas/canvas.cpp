@@ -190,7 +190,7 @@ Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* c
   return paint;
 }
 
-void Canvas::polygon(const Primitive& p, Paint paint, const Clip& clip) {
+void Canvas::polygon(const Primitive& p, const Paint& paint, const Clip& clip) {
   const auto& v = p.vertices;
   triangle(p, {&v[0], &v[1], &v[2]}, paint, clip);
   // A flat quad has the colour of its first vertex on both halves.

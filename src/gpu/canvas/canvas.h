@@ -94,7 +94,7 @@ class Canvas {
   [[nodiscard]] Target target(std::size_t layer);
   [[nodiscard]] Clip clip(const DrawState& state) const;
   Paint paint(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
-  void polygon(const Primitive& p, Paint paint, const Clip& clip);
+  void polygon(const Primitive& p, const Paint& paint, const Clip& clip);
   void triangle(const Primitive& p, const Triangle& triangle, const Paint& paint, const Clip& clip);
   void rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
                  const Clip& clip);
