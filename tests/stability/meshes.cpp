@@ -1,0 +1,173 @@
+// Whole meshes through the whole line: neighbours that are subdivided, coordinates at the 16-bit limit,
+// vertices that lie exactly on a clipping plane.
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "gpu/gpu.h"
+#include "ot/main_ram.h"
+#include "scene/clip.h"
+#include "scene/pipeline.h"
+#include "scene/project.h"
+#include "stability/measure.h"
+#include "stability/triangulation.h"
+
+using glm::dvec3;
+using stability::between;
+using stability::Measure;
+using stability::Random;
+
+namespace {
+
+constexpr int cells = 7;
+
+/// A wall of quads wider than the picture, textured, blended additively. Every vertex is moved along its line
+/// of sight, so the wall is crumpled and yet covers each pixel once.
+scene::Scene crumpled_wall(Random& random) {
+  scene::Scene scene;
+  auto& world = scene.world;
+  scene::Texture texture;
+  texture.width = texture.height = 8;
+  texture.pixels.assign(64, {8, 8, 8, 128});
+  world.textures = {texture};
+  world.materials = {{.texture = 0, .blend = scene::Blend::add, .raw_texture = true}};
+  scene::Mesh mesh;
+  for (int y = 0; y <= cells; ++y) {
+    for (int x = 0; x <= cells; ++x) {
+      const bool inner = x > 0 && x < cells && y > 0 && y < cells;
+      const auto bend = [&] { return inner ? static_cast<float>(between(random, -200, 200)) / 1000.0F : 0; };
+      const float away = 1 + static_cast<float>(between(random, 0, 2000)) / 1000.0F;
+      const float across = (static_cast<float>(x) + bend()) / cells - 0.5F,
+                  down = (static_cast<float>(y) + bend()) / cells - 0.5F;
+      mesh.positions.push_back(glm::vec3(2.2F * across, -1.8F * down, -1) * away);
+    }
+  }
+  for (std::uint32_t y = 0; y < cells; ++y) {
+    for (std::uint32_t x = 0; x < cells; ++x) {
+      const std::uint32_t at = y * (cells + 1) + x;
+      scene::Face face;
+      face.vertex = {at, at + cells + 1, at + cells + 2, at + 1};
+      face.uv = {glm::vec2(0, 0), {0, 1}, {1, 1}, {1, 0}};
+      mesh.faces.push_back(face);
+    }
+  }
+  world.meshes = {mesh};
+  world.instances.resize(1);
+  world.camera.near_z = 0;
+  return scene;
+}
+
+/// Pixels of the picture that were not drawn exactly once.
+int wrong_pixels(const scene::Scene& scene, const scene::Knobs& knobs) {
+  scene::FrameBuilder builder(scene, knobs);
+  static ot::MainRam ram(ot::RamSize::mib8);
+  gpu::Gpu gpu;
+  builder.upload(gpu);
+  if (!scene::render_frame(builder, 0, knobs, ram, gpu)) return knobs.width * knobs.height;
+  int wrong = 0;
+  for (int y = 0; y < knobs.height; ++y) {
+    for (int x = 0; x < knobs.width; ++x) wrong += (gpu.vram().at(x, y) & 31) != 1;
+  }
+  return wrong;
+}
+
+float largest_coordinate(const scene::Mesh& mesh) {
+  float largest = 0;
+  for (const auto& p : mesh.positions)
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest;
+}
+
+}  // namespace
+
+TEST_SUITE("stability") {
+  TEST_CASE("Neighbouring quads in n x n pieces cover every pixel once") {
+    Measure wrong{"1. Watertight",
+                  "crumpled walls of 49 quads that fill the picture, in 1 x 1 to 8 x 8 pieces each",
+                  "a crack or a seam between pieces, or between pieces of neighbours",
+                  "every pixel once",
+                  "pixels",
+                  0};
+    Random random(120);
+    for (int n = 1; n <= 8; ++n) {
+      for (int i = 0; i < 3; ++i) {
+        auto scene = crumpled_wall(random);
+        scene.world.units_per_world = 3000;
+        scene::Knobs knobs;
+        knobs.subdivide = n;
+        wrong.see(wrong_pixels(scene, knobs), static_cast<std::uint64_t>(cells * cells * n * n));
+      }
+    }
+  }
+
+  TEST_CASE("Meshes that reach the limit of 16-bit coordinates, and beyond it, cover every pixel once") {
+    Measure wrong{
+        "11. Cameras and scenes",
+        "crumpled walls whose farthest vertex lies at 32,767 units, a half unit beyond, and at twice "
+        "as many (all nearer than 65,535 units)",
+        "coordinates that wrap, vertices that saturate apart",
+        "every pixel once",
+        "pixels",
+        0};
+    Random random(121);
+    for (const float reach : {32'766.0F, 32'767.0F, 32'767.5F, 32'768.0F, 40'000.0F, 65'000.0F}) {
+      for (int i = 0; i < 4; ++i) {
+        auto scene = crumpled_wall(random);
+        scene.world.units_per_world = reach / largest_coordinate(scene.world.meshes[0]);
+        CAPTURE(reach);
+        wrong.see(wrong_pixels(scene, {}), cells * cells);
+      }
+    }
+  }
+
+  TEST_CASE("Vertices exactly on the near plane belong to what lies behind it") {
+    Measure moved{"11. Cameras and scenes",
+                  "triangles with one to three vertices exactly on the near plane, the others behind it",
+                  "a vertex cut where nothing is to cut",
+                  "the triangle as it was, to the last bit",
+                  "triangles",
+                  0};
+    Measure left{"11. Cameras and scenes",
+                 "triangles with one or two vertices exactly on the near plane, the others before it",
+                 "a sliver that is drawn at the near plane",
+                 "nothing with an area",
+                 "square units",
+                 0};
+    const scene::Projection projection;
+    Random random(122);
+    for (const bool whole : {false, true}) {
+      const scene::Clipper clipper(projection, whole);
+      for (int i = 0; i < 20'000; ++i) {
+        const int on_plane = between(random, 1, 3);
+        const bool behind = on_plane == 3 || i % 2 == 0;
+        scene::ClipPolygon in, out;
+        for (int v = 0; v < 3; ++v) {
+          const double z = v < on_plane ? projection.near_z
+                           : behind     ? std::ceil(projection.near_z) + between(random, 0, 500)
+                                        : std::floor(projection.near_z) - between(random, 1, 100);
+          in.add({.position = {static_cast<double>(between(random, -60, 60)),
+                               static_cast<double>(between(random, -60, 60)), z}});
+        }
+        const auto before = in;
+        clipper.clip(in, out);
+        if (behind) {
+          bool same = out.count == 3;
+          for (std::size_t v = 0; same && v < 3; ++v)
+            same = out.vertex[v].position == before.vertex[v].position;
+          moved.see(same ? 0 : 1);
+        } else {
+          dvec3 sum{0.0};
+          for (std::size_t v = 2; v < out.count; ++v) {
+            sum += glm::cross(out.vertex[v - 1].position - out.vertex[0].position,
+                              out.vertex[v].position - out.vertex[0].position);
+          }
+          left.see(glm::length(sum) / 2);
+        }
+      }
+    }
+  }
+}
