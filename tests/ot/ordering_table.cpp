@@ -108,6 +108,18 @@ TEST_SUITE("ot") {
     }
   }
 
+  TEST_CASE("first in, first out: what is inserted after a chain is drawn behind all of it") {
+    Fixture f;
+    OrderingTable table(f.ram, 0x123000, 1, Order::fifo);
+    table.clear();
+    const auto depth = f.packet('d');
+    const auto polygon = f.packet('p');
+    link(f.ram, depth, polygon);
+    table.insert(0, depth, polygon);
+    table.insert(0, f.packet('A'));
+    CHECK(drawn(f.ram, table.head()) == Words{'d', 'p', 'A'});
+  }
+
   TEST_CASE("a nested table is drawn as one where it was inserted") {
     Fixture f;
     OrderingTable scene(f.ram, 0x123000, 4);
