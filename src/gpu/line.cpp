@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -139,11 +140,27 @@ constexpr auto line_kernels = []<std::size_t... I>(std::index_sequence<I...>) {
 }
 (std::make_index_sequence<LineMode::count>());
 
-/// 32.32, rounded away from zero so that the last step arrives.
-std::int64_t step_of(std::int64_t distance, int steps) {
-  const std::int64_t away = distance < 0 ? 1 - steps : distance > 0 ? steps - 1 : 0;
-  return (distance * (std::int64_t{1} << 32) + away) / steps;
-}
+/// Quotients by the number of steps, one division for all of a line. Half a unit is added to the numerator's
+/// magnitude first: numerators are below 2^43 and there are at most 1023 steps, so no error of the doubles
+/// reaches an integer.
+class PerStep {
+ public:
+  explicit PerStep(int steps) : factor_(steps == 0 ? 0 : 1.0 / steps), away_(std::max(steps - 1, 0)) {}
+  /// 32.32, rounded away from zero so that the last step arrives.
+  [[nodiscard]] std::int64_t distance(int pixels) const {
+    return divide(pixels * 4294967296.0, pixels == 0 ? 0 : away_);
+  }
+  /// 8.12, rounded towards zero.
+  [[nodiscard]] std::int32_t colour(int difference) const {
+    return static_cast<std::int32_t>(divide(difference * 4096.0, 0));
+  }
+
+ private:
+  [[nodiscard]] std::int64_t divide(double numerator, double more) const {
+    return static_cast<std::int64_t>((numerator + std::copysign(more + 0.5, numerator)) * factor_);
+  }
+  double factor_, away_;
+};
 
 }  // namespace
 
@@ -161,9 +178,8 @@ void draw_line(const Surface& surface, const Primitive& primitive) {
   constexpr std::int64_t one = std::int64_t{1} << 32;
   const bool is_gouraud = primitive.is_gouraud();
   const auto start = [](std::uint8_t c) { return std::int32_t{c} * 4096 + 2048; };
-  const auto slope = [steps](int from, int to) { return steps == 0 ? 0 : (to - from) * 4096 / steps; };
-  const std::int64_t step_x = steps == 0 ? 0 : step_of(b->x - a->x, steps);
-  const std::int64_t step_y = steps == 0 ? 0 : step_of(b->y - a->y, steps);
+  const PerStep per_step(steps);
+  const std::int64_t step_x = per_step.distance(b->x - a->x), step_y = per_step.distance(b->y - a->y);
   LineJob job{
       .pixels = surface.vram.pixels().data(),
       .x = a->x * one + one / 2 - 1024,
@@ -179,9 +195,11 @@ void draw_line(const Surface& surface, const Primitive& primitive) {
       .mask_set = state.mask_set(),
       .mask_test = state.mask_test(),
   };
-  if (is_gouraud) job.step_c = {slope(a->r, b->r), slope(a->g, b->g), slope(a->b, b->b)};
+  if (is_gouraud) {
+    job.step_c = {per_step.colour(b->r - a->r), per_step.colour(b->g - a->g), per_step.colour(b->b - a->b)};
+  }
 
-  const LineMode mode{is_gouraud, state.dithers(), mode_of(primitive, false).write};
+  const LineMode mode{is_gouraud, state.dithers(), write_of(primitive)};
   if (surface.trace != nullptr) {
     draw_body(mode, job, Watcher{{surface.trace, surface.draw, 0}});
   } else {

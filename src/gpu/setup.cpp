@@ -13,34 +13,10 @@ std::uint16_t pack_flat(const Vertex& vertex) {
   return static_cast<std::uint16_t>(vertex.r >> 3 | vertex.g >> 3 << 5 | vertex.b >> 3 << 10);
 }
 
-Write write_of(const Primitive& primitive) {
-  if (!primitive.is_semi_transparent()) {
-    return primitive.state.mask_test() != 0 ? Write::masked : Write::opaque;
-  }
-  constexpr Write blends[] = {Write::average, Write::add, Write::subtract, Write::add_quarter};
-  return blends[static_cast<std::size_t>(primitive.state.blend())];
-}
-
 /// Halfwords a row of a texture page takes, and how far the column wraps.
 int page_width(TexelFormat format) { return 64 << static_cast<int>(format); }
 
 }  // namespace
-
-Mode mode_of(const Primitive& primitive, bool dithers) {
-  const bool is_textured = primitive.is_textured();
-  const bool is_gouraud = primitive.kind == Kind::polygon && primitive.is_gouraud();
-  const Shade shade = primitive.is_raw() ? Shade::raw : is_gouraud ? Shade::gouraud : Shade::flat;
-  constexpr Texture textures[] = {Texture::clut4, Texture::clut8, Texture::direct15};
-  return {
-      .surface = {.texture = is_textured ? textures[static_cast<std::size_t>(primitive.state.texel_format())]
-                                         : Texture::none,
-                  .shade = shade,
-                  .dither = dithers && primitive.state.dithers() && shade != Shade::raw &&
-                            (is_textured || shade == Shade::gouraud)},
-      .write = write_of(primitive),
-      .depth = false,
-  };
-}
 
 void put_constants(Job& job, const Surface& surface, const Primitive& primitive) {
   const DrawState& state = primitive.state;

@@ -26,8 +26,33 @@ struct SpanList {
   [[nodiscard]] std::span<const Span> all() const { return {spans.data(), count}; }
 };
 
+inline Write write_of(const Primitive& primitive) {
+  static_assert(static_cast<int>(Write::average) + static_cast<int>(Blend::add_quarter) ==
+                static_cast<int>(Write::add_quarter));
+  const auto blended = static_cast<int>(Write::average) + static_cast<int>(primitive.state.blend());
+  if (primitive.is_semi_transparent()) return static_cast<Write>(blended);
+  return primitive.state.mask_test() != 0 ? Write::masked : Write::opaque;
+}
+
 /// Mode of a polygon or rectangle; `dithers` says whether this kind of primitive may be dithered at all.
-Mode mode_of(const Primitive& primitive, bool dithers);
+/// Inline: returned from a call, the five bytes are written one by one and read as one word, and the
+/// processor waits for that as long as a small rectangle takes to draw.
+inline Mode mode_of(const Primitive& primitive, bool dithers) {
+  const bool is_textured = primitive.is_textured();
+  const bool is_gouraud = primitive.kind == Kind::polygon && primitive.is_gouraud();
+  const Shade shade = primitive.is_raw() ? Shade::raw : is_gouraud ? Shade::gouraud : Shade::flat;
+  const auto texture = static_cast<Texture>(static_cast<int>(primitive.state.texel_format()) + 1);
+  static_assert(static_cast<int>(Texture::clut4) == static_cast<int>(TexelFormat::clut4) + 1 &&
+                static_cast<int>(Texture::direct15) == static_cast<int>(TexelFormat::direct15) + 1);
+  return {
+      .surface = {.texture = is_textured ? texture : Texture::none,
+                  .shade = shade,
+                  .dither = dithers && primitive.state.dithers() && shade != Shade::raw &&
+                            (is_textured || shade == Shade::gouraud)},
+      .write = write_of(primitive),
+      .depth = false,
+  };
+}
 
 /// Everything of a job but its gradients and its depth.
 void put_constants(Job& job, const Surface& surface, const Primitive& primitive);
