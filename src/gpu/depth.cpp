@@ -8,19 +8,6 @@ namespace gpu {
 
 namespace {
 
-constexpr std::uint32_t largest_code(DepthFormat format) {
-  switch (format) {
-    case DepthFormat::bits16:
-      return 0xffff;
-    case DepthFormat::bits24:
-      return 0xffffff;
-    case DepthFormat::bits32:
-      return 0xffffffff;
-    default:
-      return std::bit_cast<std::uint32_t>(1.0F);
-  }
-}
-
 /// 0 at near, 1 at far; the other way round when reversed, computed so that small
 /// results keep their precision.
 double unit_depth(const DepthOptions& o, double z) {
@@ -30,6 +17,11 @@ double unit_depth(const DepthOptions& o, double z) {
 }
 
 }  // namespace
+
+std::uint32_t largest_code(DepthFormat format) {
+  constexpr std::uint32_t codes[] = {0xffff, 0xffffff, 0xffffffff, std::bit_cast<std::uint32_t>(1.0F)};
+  return codes[static_cast<std::size_t>(format)];
+}
 
 double depth_scale(DepthFormat format) {
   return format == DepthFormat::float32 ? 1.0 : static_cast<double>(largest_code(format));
@@ -42,13 +34,17 @@ std::uint32_t stored_depth(const DepthOptions& options, double z) {
 }
 
 std::uint32_t depth_key(const DepthOptions& options, std::uint32_t stored) {
-  return options.reversed ? largest_code(options.format) - stored : stored;
+  const std::uint32_t key = options.reversed ? largest_code(options.format) - stored : stored;
+  return std::min(key, DepthPlane::farthest);
 }
 
-std::uint32_t DepthPlane::stored(int x, int y) const {
-  const std::uint32_t key = keys_[Vram::offset(x, y)];
-  return depth_key(options_, std::min(key, largest_code(options_.format)));
+std::uint32_t depth_of_key(const DepthOptions& options, std::uint32_t key) {
+  const std::uint32_t largest = largest_code(options.format);
+  const std::uint32_t distance = key >= DepthPlane::farthest ? largest : std::min(key, largest);
+  return options.reversed ? largest - distance : distance;
 }
+
+std::uint32_t DepthPlane::stored(int x, int y) const { return depth_of_key(options_, keys_[offset(x, y)]); }
 
 void DepthPlane::clear() { std::fill(keys_.begin(), keys_.end(), empty); }
 

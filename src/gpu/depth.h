@@ -26,7 +26,8 @@ struct DepthOptions {
   bool operator==(const DepthOptions&) const = default;
 };
 
-/// The largest integer a format stores; 1 for float32.
+/// The largest code of a format: far, or near when reversed. As a number: 1 for float32.
+std::uint32_t largest_code(DepthFormat format);
 double depth_scale(DepthFormat format);
 
 /// The stored depth of view-space z: integer formats round((0..1) * depth_scale), halves up; float32 the bits
@@ -37,19 +38,26 @@ std::uint32_t stored_depth(const DepthOptions& options, double z);
 /// One key per VRAM pixel. A key orders as "nearer is smaller" for every format, reversed or not, so one
 /// unsigned comparison serves all; `empty` loses to every fragment, however far.
 ///
-/// bits32 uses every code, so its last one also reads as empty: of two fragments at
-/// or behind far the later wins.
+/// bits32 uses every code, so the two that are farthest share a key, which reads as far.
 class DepthPlane {
  public:
-  static constexpr std::uint32_t empty = 0xffffffff;
+  static constexpr std::uint32_t empty = 0xffffffff, farthest = 0xfffffffe;
+
+  /// Keys from one row to the next. Not 1024: at a distance of 4 KiB, rows compete for the same few places of
+  /// the caches, and a load waits for the store above it.
+  static constexpr std::size_t stride = Vram::width + 16;
+  [[nodiscard]] static constexpr std::size_t offset(int x, int y) {
+    return (static_cast<std::size_t>(y) & (Vram::height - 1)) * stride +
+           (static_cast<std::size_t>(x) & (Vram::width - 1));
+  }
 
   explicit DepthPlane(const DepthOptions& options)
-      : options_(options), keys_(Vram::size + Vram::padding, empty) {}
+      : options_(options), keys_(stride * Vram::height + Vram::padding, empty) {}
 
   void clear();
   [[nodiscard]] const DepthOptions& options() const { return options_; }
   [[nodiscard]] std::uint32_t* keys() { return keys_.data(); }
-  [[nodiscard]] bool is_empty(int x, int y) const { return keys_[Vram::offset(x, y)] == empty; }
+  [[nodiscard]] bool is_empty(int x, int y) const { return keys_[offset(x, y)] == empty; }
 
   /// What the format stores at x, y (not the key); a pixel nobody wrote reads as far.
   [[nodiscard]] std::uint32_t stored(int x, int y) const;
@@ -61,7 +69,8 @@ class DepthPlane {
   std::vector<std::uint32_t> keys_;
 };
 
-/// Stored depth <-> key: its own inverse.
+/// The key of a stored depth, and the stored depth that a key reads as; that of `empty` is far.
 std::uint32_t depth_key(const DepthOptions& options, std::uint32_t stored);
+std::uint32_t depth_of_key(const DepthOptions& options, std::uint32_t key);
 
 }  // namespace gpu

@@ -39,8 +39,8 @@ struct TexturePage {
   bool side_by_side = false;
 };
 
-/// A depth that is affine on the screen, unsigned 32.32 and modulo 2^64, one half added: the stored depth is
-/// the high word. For whoever needs neither a limit nor a division per pixel.
+/// A depth key that is affine on the screen, unsigned 32.32 and modulo 2^64, one half added: the key is the
+/// high word. For whoever needs neither a limit nor a division per pixel.
 struct FixedDepth {
   std::uint64_t start, dx, dy;
   [[nodiscard]] std::uint64_t at(int x, int y) const {
@@ -53,7 +53,7 @@ struct FixedDepth {
 /// sign inside, so nothing cancels.
 struct DepthJob {
   std::uint32_t* keys;
-  FixedDepth fixed;  ///< only if is_fixed, and then nothing of the next three groups
+  FixedDepth fixed;  ///< only if is_fixed, and then nothing of what follows up to `add`
   std::array<double, 3> weight, edge_start, edge_dx, edge_dy;  ///< edges relative to the gradients' vertex
   double slope;                                                ///< of the affine quantity along a row
   double low, high;                                            ///< its range between near and far

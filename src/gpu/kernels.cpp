@@ -110,11 +110,13 @@ STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, 
                    start(job.shade.b, constants.colour.b)};
   }
   if (m.surface.texture != Texture::none) {
-    walk.u = start(job.texel.u, constants.u);
-    walk.v = start(job.texel.v, constants.v);
     walk.first_u = job.texel.u.at(span.dx, span.dy) >> 24;
     walk.first_v = job.texel.v.at(span.dx, span.dy) >> 24;
     walk.is_adjacent = job.page.side_by_side && walk.first_u + static_cast<std::uint32_t>(span.count) <= 256;
+    if (!walk.is_adjacent) {
+      walk.u = start(job.texel.u, constants.u);
+      walk.v = start(job.texel.v, constants.v);
+    }
   }
   if (m.depth && job.depth.is_fixed) {
     walk.fixed_depth = FixedDepths<D>::from(job.depth.fixed.at(span.dx, span.dy), constants.depth);
@@ -134,9 +136,12 @@ STAGE void advance(D d, Mode m, const Job& job, Walk<D>& walk) {
     walk.colour.b = hn::Add(walk.colour.b, block(job.shade.b));
   }
   if (m.surface.texture != Texture::none) {
-    walk.u = hn::Add(walk.u, block(job.texel.u));
-    walk.v = hn::Add(walk.v, block(job.texel.v));
-    walk.first_u += lanes;
+    if (walk.is_adjacent) {
+      walk.first_u += lanes;
+    } else {
+      walk.u = hn::Add(walk.u, block(job.texel.u));
+      walk.v = hn::Add(walk.v, block(job.texel.v));
+    }
   }
   if (m.depth && job.depth.is_fixed) FixedDepths<D>::advance(walk.fixed_depth, job.depth.fixed.dx);
 }
@@ -144,8 +149,8 @@ STAGE void advance(D d, Mode m, const Job& job, Walk<D>& walk) {
 /// Depth key of each lane; `done` pixels of the span lie behind.
 template <class D>
 STAGE V<D> depth_keys(D d, const Job& job, const Walk<D>& walk, int done) {
-  if (job.depth.is_fixed) return key_of(d, job.depth, FixedDepths<D>::stored(walk.fixed_depth));
-  return key_of(d, job.depth, computed_depth(d, job.depth, walk.depth, done));
+  if (job.depth.is_fixed) return limited_key(d, FixedDepths<D>::whole(walk.fixed_depth));
+  return limited_key(d, key_of(d, job.depth, computed_depth(d, job.depth, walk.depth, done)));
 }
 
 template <class D>
@@ -211,9 +216,11 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Palette16<D>& palette, 
   [[maybe_unused]] auto nearest = wanted;
 
   V<D> key = hn::Zero(d);
+  [[maybe_unused]] std::int32_t* keys = nullptr;
   if (m.depth) {
     key = depth_keys(d, job, walk, done);
-    const auto old = hn::LoadU(d, reinterpret_cast<const std::int32_t*>(job.depth.keys + place));
+    keys = reinterpret_cast<std::int32_t*>(job.depth.keys + DepthPlane::offset(x, span.y));
+    const auto old = hn::LoadU(d, keys);
     nearest = to_mask16(d, nearer(d, job.depth, key, old));
     if constexpr (!Observer::is_on) {
       wanted = hn::And(wanted, nearest);
@@ -250,7 +257,7 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Palette16<D>& palette, 
   }
   store(d16, pixel, wanted, at);
   if (m.depth && job.depth.writes) {  // after the texel test: a hole hides nothing
-    store(d, key, to_mask32(d, wanted), reinterpret_cast<std::int32_t*>(job.depth.keys + place));
+    store(d, key, to_mask32(d, wanted), keys);
   }
 }
 

@@ -16,6 +16,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "gpu/depth.h"
 #include "gpu/job.h"
 #include "gpu/vram.h"
 
@@ -98,10 +99,21 @@ STAGE V16<D> narrow([[maybe_unused]] D d, V<D> pixels) {
 
 // --- texel ---
 
-/// 16-entry palette as two byte tables, so that one shuffle looks up all lanes.
+/// 16-entry palette that one shuffle looks up for all lanes: an entry in each lane where there are 16, else
+/// two tables of bytes.
 template <class D>
 struct Palette16 {
-#if HWY_TARGET == HWY_SCALAR
+#if HWY_TARGET <= HWY_AVX3
+  V<hn::ScalableTag<std::int32_t>> entries;
+  explicit Palette16(const std::uint16_t* clut) {
+    const hn::ScalableTag<std::int32_t> d;
+    entries = hn::PromoteTo(d, hn::LoadU(Half16<decltype(d)>(), clut));
+  }
+  STAGE V<D> at(const Palette16& p, V<D> index) {
+    const D d;
+    return hn::TableLookupLanes(p.entries, hn::IndicesFromVec(d, index));
+  }
+#elif HWY_TARGET == HWY_SCALAR
   const std::uint16_t* entries;
   explicit Palette16(const std::uint16_t* clut) : entries(clut) {}
   STAGE V<D> at(const Palette16& p, V<D> index) { return V<D>(p.entries[index.raw]); }
@@ -157,13 +169,15 @@ STAGE V<D> adjacent_word(D d, Mode m, const Job& job, std::uint32_t u, std::uint
   if (m.surface.texture == Texture::clut4) {
     // 16 nibbles from u on; an odd u drops one, which the next byte makes good.
     const auto* bytes = reinterpret_cast<const unsigned char*>(row) + (u >> 1);
-    std::uint64_t nibbles = 0;
+    std::uint64_t nibbles = 0, next = 0;
     std::memcpy(&nibbles, bytes, 8);
-    if ((u & 1) != 0) nibbles = nibbles >> 4 | std::uint64_t{bytes[8]} << 60;
+    std::memcpy(&next, bytes + 1, 8);
+    const std::uint32_t odd = u % 2 * 4;
+    nibbles = nibbles >> odd | next << (8 - odd);  // an even u: the same bytes twice
     auto words = hn::Set(d, static_cast<std::int32_t>(static_cast<std::uint32_t>(nibbles)));
     if constexpr (lanes == 16) {
-      const auto upper = hn::Set(d, static_cast<std::int32_t>(static_cast<std::uint32_t>(nibbles >> 32)));
-      words = hn::IfThenElse(hn::FirstN(d, 8), words, upper);
+      const auto both = hn::BitCast(d, hn::Set(hn::Repartition<std::uint64_t, D>(), nibbles));
+      words = hn::TableLookupLanes(both, hn::IndicesFromVec(d, hn::ShiftRight<3>(hn::Iota(d, 0))));
     }
     if constexpr (lanes > 1) {
       words = shift_right(d, words, hn::And(hn::ShiftLeft<2>(hn::Iota(d, 0)), hn::Set(d, 31)));
@@ -302,7 +316,7 @@ struct FixedDepths {
   std::uint64_t first = 0;
   STAGE FixedDepths ramp(std::uint64_t) { return {}; }
   STAGE FixedDepths from(std::uint64_t start, const FixedDepths&) { return {start}; }
-  STAGE V<D> stored(const FixedDepths& f) {
+  STAGE V<D> whole(const FixedDepths& f) {
     return V<D>(static_cast<std::int32_t>(static_cast<std::uint32_t>(f.first >> 32)));
   }
   STAGE void advance(FixedDepths& f, std::uint64_t dx) { f.first += dx; }
@@ -337,7 +351,7 @@ STAGE V<D> computed_depth(D d, const DepthJob& depth, double start, int column) 
                      computed_half(d, depth, start, column));
 }
 
-/// The block's depths in 32.32: two vectors, whose odd 32-bit lanes are what is stored.
+/// The block's keys in 32.32: two vectors, whose odd 32-bit lanes are the keys.
 template <class D>
 struct FixedDepths {
   using D64 = hn::Repartition<std::uint64_t, D>;
@@ -358,7 +372,7 @@ struct FixedDepths {
     const auto first = hn::Set(D64(), start);
     return {hn::Add(first, lanes.low), hn::Add(first, lanes.high)};
   }
-  STAGE V<D> stored(const FixedDepths& f) {
+  STAGE V<D> whole(const FixedDepths& f) {
     const D d;
     return hn::ConcatOdd(d, hn::BitCast(d, f.high), hn::BitCast(d, f.low));
   }
@@ -377,13 +391,19 @@ STAGE V<D> key_of(D d, const DepthJob& depth, V<D> stored) {
                  hn::Set(d, static_cast<std::int32_t>(depth.add)));
 }
 
-/// Where the fragment wins; a pixel that nobody wrote loses to everything.
+/// No fragment is as far as a pixel that nobody wrote.
 template <class D>
-STAGE auto nearer(D d, const DepthJob& depth, V<D> key, V<D> old) {
+STAGE V<D> limited_key(D d, V<D> key) {
+  const hn::RebindToUnsigned<D> du;
+  return hn::BitCast(d, hn::Min(hn::BitCast(du, key), hn::Set(du, DepthPlane::farthest)));
+}
+
+/// Where the fragment wins.
+template <class D>
+STAGE auto nearer(D, const DepthJob& depth, V<D> key, V<D> old) {
   const hn::RebindToUnsigned<D> du;
   const auto less = hn::Lt(hn::BitCast(du, key), hn::BitCast(du, old));
-  const auto tie = depth.equal_wins ? key : hn::Set(d, -1);
-  return hn::Or(less, hn::RebindMask(du, hn::Eq(old, tie)));
+  return depth.equal_wins ? hn::Or(less, hn::Eq(hn::BitCast(du, key), hn::BitCast(du, old))) : less;
 }
 
 }  // namespace gpu::HWY_NAMESPACE

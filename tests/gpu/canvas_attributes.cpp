@@ -137,7 +137,7 @@ TEST_SUITE("canvas") {
           const gpu::DepthOptions options{format, mapping, gpu::DepthTest::less, reversed, 16, 4000};
           const canvas::DepthCode code(options);
           for (double z = 8; z < 8000; z *= 1.37) {
-            const auto stored = gpu::depth_key(options, code.key(1 / z));
+            const auto stored = gpu::depth_of_key(options, code.key(1 / z));
             const auto expected = gpu::stored_depth(options, z);
             CAPTURE(z);
             const auto difference = stored > expected ? stored - expected : expected - stored;

@@ -108,6 +108,29 @@ TEST_SUITE("gpu") {
     }
   }
 
+  TEST_CASE(
+      "Of two surfaces at or behind far the first wins with less, the last with lequal, in every format") {
+    for (const DepthFormat format :
+         {DepthFormat::bits16, DepthFormat::bits24, DepthFormat::bits32, DepthFormat::float32}) {
+      for (const DepthMapping mapping : {DepthMapping::hyperbolic, DepthMapping::linear}) {
+        for (const DepthTest test : {DepthTest::less, DepthTest::lequal}) {
+          for (const double z : {1000.0, 5000.0}) {
+            for (const bool reversed : {false, true}) {
+              const DepthOptions o{
+                  .format = format, .mapping = mapping, .test = test, .reversed = reversed, .far_z = 1000};
+              Bench bench(o);
+              bench.square(red, z, z);
+              bench.square(green, z, z);
+              CHECK(bench.pixel(4, 4) == (test == DepthTest::less ? 0x1f : 0x3e0));
+              CHECK_FALSE(bench.gpu->depth_plane()->is_empty(4, 4));
+              CHECK(bench.gpu->depth_plane()->stored(4, 4) == gpu::stored_depth(o, 1000));
+            }
+          }
+        }
+      }
+    }
+  }
+
   TEST_CASE("A surface at or behind far still covers an empty pixel") {
     for (const DepthFormat format :
          {DepthFormat::bits16, DepthFormat::bits24, DepthFormat::bits32, DepthFormat::float32}) {

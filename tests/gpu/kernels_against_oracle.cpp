@@ -137,7 +137,8 @@ TEST_SUITE("gpu") {
             const std::uint32_t key = both->plain.depth[static_cast<std::size_t>(y * 1024 + x)];
             const bool empty = key == gpu::DepthPlane::empty;
             if (both->fast.depth_plane()->is_empty(x, y) != empty) ++differing;
-            if (!empty && both->fast.depth_plane()->stored(x, y) != gpu::depth_key(options, key)) ++differing;
+            if (!empty && both->fast.depth_plane()->stored(x, y) != gpu::depth_of_key(options, key))
+              ++differing;
           }
         }
         CHECK(differing == 0);

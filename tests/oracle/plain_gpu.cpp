@@ -292,28 +292,37 @@ struct PlainGpu::DepthPlane {
       ex[i] = (y[j] - y[k]) * 256.0;
       ey[i] = (x[k] - x[j]) * 256.0;
     }
-    double slope_y = 0;
-    bool inside = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      slope += ex[i] * w[i];
-      slope_y += ey[i] * w[i];
-      inside &= t[i]->z / 4096.0 >= o.near_z && t[i]->z / 4096.0 <= o.far_z;
-    }
-    // Where nothing can leave the range, 32.32 counts; the half that rounds is in the start.
-    fixed = inside && !fractions && o.mapping == gpu::DepthMapping::hyperbolic &&
-            o.format != gpu::DepthFormat::float32 && std::abs(slope) <= 1 << 30 &&
-            std::abs(slope_y) <= 1 << 30;
-    if (!fixed) return;
-    const double z = core.z / 4096.0, range = o.far_z - o.near_z, scale = gpu::depth_scale(o.format);
-    const double q =
-        (o.reversed ? o.near_z * (o.far_z - z) / (z * range) : o.far_z * (z - o.near_z) / (z * range)) *
-        scale;
-    fixed_start = static_cast<std::uint64_t>((q + 0.5) * 4294967296.0);
-    fixed_x = static_cast<int64_t>(slope * 4294967296.0);
-    fixed_y = static_cast<int64_t>(slope_y * 4294967296.0);
+    for (std::size_t i = 0; i < 3; ++i) slope += ex[i] * w[i];
+    if (!fractions && o.mapping == gpu::DepthMapping::hyperbolic && o.format != gpu::DepthFormat::float32)
+      put_fixed(t, core);
   }
 
-  /// dx, dy: pixels from the core vertex.
+  /// Where nothing can leave the range, 32.32 counts: depths of the vertices with 18 bits of fraction, exact
+  /// numerators, a rounding half in the start.
+  void put_fixed(std::array<const Vertex*, 3> t, const Vertex& core) {
+    const double range = o.far_z - o.near_z, scale = gpu::depth_scale(o.format);
+    const auto depth_of = [&](const Vertex& vertex) {
+      const double z = vertex.z / 4096.0;
+      const double unit =
+          o.reversed ? o.near_z * (o.far_z - z) / (z * range) : o.far_z * (z - o.near_z) / (z * range);
+      return static_cast<int64_t>(unit * scale * 262144);
+    };
+    for (const Vertex* vertex : t) {
+      if (vertex->z / 4096.0 < o.near_z || vertex->z / 4096.0 > o.far_z) return;
+    }
+    const int64_t a = depth_of(*t[0]), b = depth_of(*t[1]), c = depth_of(*t[2]);
+    const int64_t x = (b - a) * (t[2]->y - t[1]->y) - (c - b) * (t[1]->y - t[0]->y);
+    const int64_t y = (t[1]->x - t[0]->x) * (c - b) - (t[2]->x - t[1]->x) * (b - a);
+    const int area = (t[1]->x - t[0]->x) * (t[2]->y - t[1]->y) - (t[2]->x - t[1]->x) * (t[1]->y - t[0]->y);
+    const double step = 16384.0 / area;
+    const double dx = static_cast<double>(x) * step, dy = static_cast<double>(y) * step;
+    fixed = std::abs(dx) <= std::ldexp(1.0, 62) && std::abs(dy) <= std::ldexp(1.0, 62);
+    if (!fixed) return;
+    fixed_start = (static_cast<std::uint64_t>(depth_of(core)) << 14) + 0x80000000;
+    fixed_x = static_cast<int64_t>(dx);
+    fixed_y = static_cast<int64_t>(dy);
+  }
+
   [[nodiscard]] uint32_t fixed_key(int dx, int dy) const {
     const std::uint64_t value = fixed_start +
                                 static_cast<std::uint64_t>(fixed_x) * static_cast<std::uint64_t>(dx) +
@@ -435,8 +444,7 @@ void PlainGpu::pixel(int x, int y, std::array<int, 3> colour, int u, int v, bool
   if (pass != Pass::console) {
     if (lets_light_through != (pass == Pass::semi_transparent)) return;
     const uint32_t old = depth[place];
-    const bool wins = key < old || old == gpu::DepthPlane::empty ||
-                      (options_->test == gpu::DepthTest::lequal && key == old);
+    const bool wins = key < old || (options_->test == gpu::DepthTest::lequal && key == old);
     if (!wins) return;
     if (pass == Pass::opaque) depth[place] = key;
   }
