@@ -24,6 +24,10 @@ struct Options {
 
 scene::Result<int> record_scene(const Options& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  // A piece of a split polygon is its parent within limits, which packets cannot say.
+  if (options.knobs.visibility == scene::Visibility::bsp) {
+    return scene::fail("--visibility bsp: cannot be recorded; expected ot, sorted or zbuffer");
+  }
   const auto scene = open_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
   Progress progress("record", options.frames);

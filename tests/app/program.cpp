@@ -68,6 +68,15 @@ TEST_SUITE("otter") {
     CHECK(folder.otter("--version").out.starts_with("otter "));
   }
 
+  TEST_CASE("a frame of split polygons is not recorded, because packets cannot say it") {
+    const Folder folder;
+    const auto refused = folder.otter("record cyclic -o x.psxgpu --visibility bsp");
+    CHECK(refused.status == 2);
+    CHECK(is_one_line(refused.err));
+    CHECK(mentions(refused.err, "--visibility bsp"));
+    CHECK_FALSE(folder.has("x.psxgpu"));
+  }
+
   TEST_CASE("every command has a help with examples of itself") {
     const Folder folder;
     for (const auto& command : app::commands) {
