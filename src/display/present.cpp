@@ -23,8 +23,9 @@ Picture to_picture(const canvas::Image& image) {
 
 canvas::Image to_image(const Picture& picture) {
   canvas::Image image(picture.width, picture.height);
-  std::ranges::transform(picture.pixels, image.pixels.begin(),
-                         [](Rgba p) { return p.r | p.g << 8U | p.b << 16U | 0xff000000U; });
+  std::ranges::transform(picture.pixels, image.pixels.begin(), [](Rgba p) {
+    return std::uint32_t{p.r} | std::uint32_t{p.g} << 8 | std::uint32_t{p.b} << 16 | 0xff000000U;
+  });
   return image;
 }
 
