@@ -171,9 +171,9 @@ TEST_SUITE("cost") {
       REQUIRE(axis.console < axis.settings.size());
       CHECK(cost::with(cost::console_knobs({}), axis.settings[axis.console]) == cost::console_knobs({}));
       for (const auto& setting : axis.settings) {
-        for (const auto& [knob, value] : setting.values) {
+        for (const auto& value : setting.values) {
           scene::Knobs knobs;
-          CHECK(scene::set_knob(knobs, knob, value));
+          CHECK(scene::set_knob(knobs, value.knob, value.value));
         }
       }
     }

@@ -27,7 +27,10 @@ TEST_SUITE("cost") {
         least[i] = std::min(least[i], drawn->stages.raster + drawn->stages.filter);
       }
     }
-    const auto [none, fxaa, msaa, super] = least;
+    const double none = least[0];
+    const double fxaa = least[1];
+    const double msaa = least[2];
+    const double super = least[3];
     MESSAGE("ms: none ", none, ", fxaa ", fxaa, ", msaa-4 ", msaa, ", rotated-4 ", super);
     CHECK(none < fxaa);
     CHECK(fxaa < msaa);

@@ -125,7 +125,8 @@ bool is_one_sheet(const std::vector<std::uint32_t>& words) {
 
 TEST_SUITE("canvas") {
   TEST_CASE("semi-transparent triangles that share edges blend every sample exactly once, in every mode") {
-    for (const auto& [name, options] : all_targets()) {
+    for (const auto& target : all_targets()) {
+      const auto& options = target.options;
       Random random(7);
       int sheets = 0;
       for (int attempt = 0; attempt < 200 && sheets < 6; ++attempt) {
@@ -138,7 +139,7 @@ TEST_SUITE("canvas") {
         CHECK(end.polygons == 0);
         for (std::size_t layer = 0; layer < options.layers.size(); ++layer) {
           const auto colours = studio.canvas.layer(layer);
-          CAPTURE(name);
+          CAPTURE(target.name);
           CAPTURE(layer);
           REQUIRE(std::ranges::count(colours, 0x0b0705U) == static_cast<std::ptrdiff_t>(colours.size()));
         }
@@ -149,7 +150,8 @@ TEST_SUITE("canvas") {
 
   TEST_CASE(
       "opaque needles, points and huge triangles at the corners of the number range draw without overflow") {
-    for (const auto& [name, options] : all_targets()) {
+    for (const auto& target : all_targets()) {
+      const auto& options = target.options;
       Studio studio(options);
       Random random(11);
       for (int i = 0; i < 300; ++i) {
@@ -167,7 +169,7 @@ TEST_SUITE("canvas") {
         studio.draw(polygon(0x20 | (random.word() & 0x1f), corners, 0x4000, 0x110));
       }
       studio.canvas.end_frame();
-      CAPTURE(name);
+      CAPTURE(target.name);
       CHECK(studio.canvas.counters().written > 0);
     }
   }
