@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "app/describe.h"
 #include "inspect/image.h"
@@ -29,7 +30,6 @@ void draw_history(const Inspection& inspection, Rect picture, int width, int hei
   constexpr std::size_t most = 16;
   const std::size_t from = lines.size() > most ? lines.size() - most : 0;
   ImGui::BeginTooltip();
-  ImGui::TextDisabled("pixel %d, %d", x, y);
   if (from != 0) ImGui::TextDisabled("... %zu lines before these", from);
   for (std::size_t i = from; i < lines.size(); ++i) ImGui::TextUnformatted(lines[i].c_str());
   ImGui::EndTooltip();
@@ -69,6 +69,30 @@ void draw_slider(WindowState& state, const Inspection& inspection) {
   ImGui::TextUnformatted(inspection.draw_text(shown - 1).c_str());
 }
 
+// Nothing was watched: says why, and offers the way back.
+void draw_unwatched(WindowState& state, const Inspection& inspection) {
+  std::string names;
+  for (const auto* knob : inspection.unwatched()) names.append(names.empty() ? "" : ", ").append(knob->name);
+  ImGui::TextWrapped(
+      "This frame is drawn on the accurate canvas beside VRAM (%s), where nobody notes who wrote which "
+      "pixel.",
+      names.c_str());
+  if (!ImGui::Button("inspect it with these as on the console")) return;
+  const scene::Knobs console;
+  for (const auto* knob : inspection.unwatched()) knob->set(state.knobs, knob->get(console));
+}
+
+void draw_watched(WindowState& state, const Inspection& inspection, float scale) {
+  int map = static_cast<int>(state.map);
+  ImGui::SetNextItemWidth(150 * scale);
+  if (ImGui::Combo("show (E)", &map, map_names.data(), static_cast<int>(map_names.size()))) {
+    state.map = static_cast<Map>(map);
+  }
+  if (state.map == Map::none) draw_slider(state, inspection);
+  if (state.paused || state.map == Map::errors) draw_causes(inspection.report());
+  if (!state.paused) ImGui::TextDisabled("Space pauses: then the mouse tells a pixel's history.");
+}
+
 }  // namespace
 
 void draw_inspect_panel(WindowState& state, const Inspection& inspection, Rect picture, int width, int height,
@@ -78,17 +102,11 @@ void draw_inspect_panel(WindowState& state, const Inspection& inspection, Rect p
   ImGui::SetNextWindowSize({520 * scale, 0}, ImGuiCond_Appearing);
   if (ImGui::Begin("Inspect", &state.inspect,
                    ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
-    int map = static_cast<int>(state.map);
-    ImGui::SetNextItemWidth(150 * scale);
-    if (ImGui::Combo("show (E)", &map, map_names.data(), static_cast<int>(map_names.size()))) {
-      state.map = static_cast<Map>(map);
-    }
-    if (state.map == Map::none) draw_slider(state, inspection);
-    if (state.paused || state.map == Map::errors) draw_causes(inspection.report());
-    if (!state.paused) ImGui::TextDisabled("Space pauses: then the mouse tells a pixel's history.");
+    inspection.unwatched().empty() ? draw_watched(state, inspection, scale)
+                                   : draw_unwatched(state, inspection);
   }
   ImGui::End();
-  if (state.paused) draw_history(inspection, picture, width, height);
+  if (state.paused && inspection.unwatched().empty()) draw_history(inspection, picture, width, height);
 }
 
 }  // namespace app

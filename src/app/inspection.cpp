@@ -88,7 +88,9 @@ scene::Result<bool> Inspection::update(const WindowState& state) {
   for (std::size_t i = 0; i < trace_.history.size(); ++i) {
     if (i == 0 || trace_.history[i].draw != trace_.history[i - 1].draw) begins_.push_back(i);
   }
+  unwatched_.clear();
   if (!drawn) return tl::make_unexpected(drawn.error());
+  unwatched_ = machine_->canvas_knobs(knobs_);
   return true;
 }
 

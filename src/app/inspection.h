@@ -26,6 +26,10 @@ class Inspection {
   /// Draws the frame of `state` again if it is another one. False: it is the same.
   scene::Result<bool> update(const WindowState& state);
 
+  /// The knobs that make the frame one that is drawn beside VRAM, where nothing is watched: without them
+  /// there is something to tell. Empty: the frame was watched.
+  [[nodiscard]] const std::vector<const scene::KnobInfo*>& unwatched() const { return unwatched_; }
+
   /// Draws that wrote a pixel, in the order made; a z-buffer's second pass counts again.
   [[nodiscard]] int draws() const { return static_cast<int>(begins_.size()); }
   /// The picture when the first `count` of them were made.
@@ -43,6 +47,7 @@ class Inspection {
   std::unique_ptr<Machine> machine_;
   gpu::Trace trace_;
   std::vector<std::size_t> begins_;  // where in the history each draw begins
+  std::vector<const scene::KnobInfo*> unwatched_;
   std::int64_t frame_ = -1;
   scene::Knobs knobs_;
   CameraOffset camera_;

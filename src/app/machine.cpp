@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/accurate.h"
 #include "scene/pipeline.h"
 
 namespace app {
@@ -52,6 +53,16 @@ scene::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::
     picture_ = presenter_.show(gpu_, knobs);
   }
   return stats;
+}
+
+std::vector<const scene::KnobInfo*> Machine::canvas_knobs(const scene::Knobs& knobs) const {
+  std::vector<const scene::KnobInfo*> asking;
+  for (const auto& knob : scene::knob_table()) {
+    scene::Knobs alone;
+    knob.set(alone, knob.get(knobs));
+    if (scene::canvas_options(alone, builder_->world(), builder_->units_per_world())) asking.push_back(&knob);
+  }
+  return asking;
 }
 
 void Machine::fly(CameraOffset& camera, glm::vec3 step) const {

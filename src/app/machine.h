@@ -41,6 +41,8 @@ class Machine {
   /// Moves `camera` by `step` in the axes of the picture last drawn (see app::fly).
   void fly(CameraOffset& camera, glm::vec3 step) const;
 
+  /// The rows of scene::knob_table() whose settings ask for a canvas beside VRAM, which is not watched.
+  [[nodiscard]] std::vector<const scene::KnobInfo*> canvas_knobs(const scene::Knobs& knobs) const;
   /// The scene with its own animation: a second machine may be made from it.
   [[nodiscard]] scene::Scene scene_as_given() const;
   [[nodiscard]] const std::vector<std::string>& report() const { return builder_->report(); }

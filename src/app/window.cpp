@@ -9,7 +9,8 @@
 #include <memory>
 #include <utility>
 
-#include "app/describe.h"
+#include "app/cost_meter.h"
+#include "app/cost_panel.h"
 #include "app/imgui_layer.h"
 #include "app/input.h"
 #include "app/inspect_panel.h"
@@ -29,6 +30,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Of the 16 that a frame at 60 Hz has.
+constexpr double measuring_ms_per_frame = 6;
+
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -45,6 +49,7 @@ class Window {
   void take_events();
   void update();
   void inspect();
+  void measure();
   void draw();
   void draw_pictures();
   void follow_state();
@@ -64,6 +69,8 @@ class Window {
   std::unique_ptr<Inspection> inspection_;  // only while it is asked for
   int inspected_scene_ = -1;
   std::pair<Map, int> inspected_{Map::none, -1};  // what it last showed
+  std::unique_ptr<CostMeter> meter_;              // likewise
+  int metered_scene_ = -1;
   Screen left_, right_, vram_;
   Rect area_, picture_;  // for pictures; where the picture is
   float scale_ = 1;      // of letters
@@ -129,6 +136,7 @@ void Window::update() {
     if (message_is_error_) message_.clear();
   }
   inspect();
+  measure();
   if (state_.vram && show_.machine() != nullptr) {
     vram_.show(renderer_.get(), display::scan_out_all(show_.machine()->gpu().vram().pixels()));
   }
@@ -147,15 +155,29 @@ void Window::inspect() {
   }
   const auto drawn = inspection_->update(state_);
   if (!drawn) return say(drawn.error().text, true);
-  const std::pair asked(state_.map, state_.first_draws);
-  if (!*drawn && asked == inspected_ && state_.map != Map::none) return;  // a map takes a while
+  const std::pair asked(inspection_->unwatched().empty() ? state_.map : Map::none, state_.first_draws);
+  if (!*drawn && asked == inspected_ && asked.first != Map::none) return;  // a map takes a while
   inspected_ = asked;
-  if (state_.map != Map::none) {
-    left_.show(renderer_.get(), inspection_->map(state_.map));
+  if (asked.first != Map::none) {
+    left_.show(renderer_.get(), inspection_->map(asked.first));
   } else {
     left_.show(renderer_.get(),
                state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws));
   }
+}
+
+// Grants the cost panel its share of this frame. A meter that is no longer wanted goes when its last drawing
+// is done: waiting for it would show.
+void Window::measure() {
+  const bool wanted = state_.cost && show_.machine() != nullptr;
+  if (meter_ && (!wanted || metered_scene_ != state_.scene)) meter_->stop();
+  if (meter_ && meter_->has_ended()) meter_.reset();
+  if (!wanted) return;
+  if (!meter_) {
+    meter_ = std::make_unique<CostMeter>(show_.machine()->scene_as_given());
+    metered_scene_ = state_.scene;
+  }
+  meter_->follow(state_.frame, state_.knobs, state_.camera, measuring_ms_per_frame);
 }
 
 void Window::follow_state() {
@@ -209,6 +231,9 @@ void Window::draw() {
   if (state_.help) draw_help(state_, area_, scale_);
   if (inspection_ && !state_.vram) {
     draw_inspect_panel(state_, *inspection_, picture_, left_.width(), left_.height(), area_, scale_);
+  }
+  if (meter_ && state_.cost && metered_scene_ == state_.scene) {
+    draw_cost_panel(state_, meter_->table(), area_, scale_);
   }
   if (state_.panel) draw_knob_panel(state_, show_.scene_name(), area_, scale_);
   if (seconds_since(begin_) < message_until_ || message_is_error_) {

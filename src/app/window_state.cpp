@@ -31,6 +31,7 @@ constexpr std::array table{
     Binding{KeyAction::inspect, "F4", "I", "", "inspect: who drew a pixel, the first K draws alone"},
     Binding{KeyAction::next_map, "E", "", "",
             "inspect: next map of errors, overdraw, who drew it, truth, depth"},
+    Binding{KeyAction::cost, "C", "", "", "cost: ms with each knob set otherwise, live"},
     Binding{KeyAction::fullscreen, "F11", "", "", "full screen"},
     Binding{KeyAction::screenshot, "F12", "", "", "screenshot into the current folder"},
     Binding{KeyAction::quit, "Escape", "Q", "back", "quit"},
@@ -190,6 +191,9 @@ void handle(WindowState& state, Asked asked) {
     case KeyAction::next_map:
       state.inspect = true;
       step(state.map, static_cast<int>(map_names.size()));
+      break;
+    case KeyAction::cost:
+      toggle(state.cost);
       break;
     case KeyAction::fullscreen:
       toggle(state.fullscreen);

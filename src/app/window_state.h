@@ -37,6 +37,7 @@ enum class KeyAction : std::uint8_t {
   vram,
   inspect,
   next_map,
+  cost,
   fullscreen,
   screenshot,
   quit,
@@ -96,6 +97,7 @@ struct WindowState {
   double divider = 0.5;  ///< where the right picture begins, 0..1 of the width
   bool differences = false;
   bool help = false, panel = false, vram = false;
+  bool cost = false;     ///< every other setting of the knobs is measured
   bool inspect = false;  ///< a frame is watched: history under the mouse, the first draws alone
   Map map = Map::none;   ///< with inspect
   int first_draws = -1;  ///< with inspect: only so many draws are shown; below 0: all

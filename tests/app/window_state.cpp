@@ -72,6 +72,7 @@ TEST_SUITE("window") {
                                       {"K", KeyAction::knobs},
                                       {"F3", KeyAction::vram},
                                       {"F11", KeyAction::fullscreen},
+                                      {"C", KeyAction::cost},
                                       {"F12", KeyAction::screenshot},
                                       {"Escape", KeyAction::quit},
                                       {"Q", KeyAction::quit}}) {
