@@ -65,8 +65,7 @@ void draw_slider(WindowState& state, const Inspection& inspection) {
   shown = std::clamp(shown, 0, draws);
   state.first_draws = shown == draws ? -1 : shown;
   ImGui::TextDisabled("of %d; the last of them:", draws);
-  ImGui::SameLine();
-  ImGui::TextUnformatted(inspection.draw_text(shown - 1).c_str());
+  ImGui::TextWrapped("%s", inspection.draw_text(shown - 1).c_str());
 }
 
 // Nothing was watched: says why, and offers the way back.

@@ -12,6 +12,14 @@ Rect wanted_area(int picture_width, int picture_height, int scale) {
   return {0, 0, picture_width * across * scale, picture_height * down * scale};
 }
 
+Rect wanted_area_within(int picture_width, int picture_height, int scale, Rect room) {
+  auto area = wanted_area(picture_width, picture_height, scale);
+  while (scale > 1 && (area.width > room.width || area.height > room.height)) {
+    area = wanted_area(picture_width, picture_height, --scale);
+  }
+  return area;
+}
+
 Rect place(int picture_width, int picture_height, Rect area) {
   const auto unit = wanted_area(std::max(picture_width, 1), std::max(picture_height, 1), 1);
   const int room_x = std::max(area.width, 1);

@@ -16,4 +16,7 @@ Rect place(int picture_width, int picture_height, Rect area);
 /// The area that `place` fills exactly at `scale` times the smallest whole size.
 Rect wanted_area(int picture_width, int picture_height, int scale);
 
+/// The same at the largest scale up to `scale`, at least 1, that leaves it within `room`.
+Rect wanted_area_within(int picture_width, int picture_height, int scale, Rect room);
+
 }  // namespace app

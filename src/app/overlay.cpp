@@ -69,6 +69,10 @@ void key_cell(std::string_view text) {
                      text.data());
 }
 
+void wrapped(std::string_view text) {
+  ImGui::TextWrapped("%.*s", static_cast<int>(text.size()), text.data());
+}
+
 }  // namespace
 
 int status_height(float scale) { return static_cast<int>(13 * scale) + 10; }
@@ -126,8 +130,11 @@ void draw_help(WindowState& state, Rect area, float scale) {
   constexpr auto flags = ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_AlwaysAutoResize |
                          ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings;
   if (ImGui::Begin("Keys", &state.help, flags) && ImGui::BeginTable("keys", 2)) {
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 230 * scale);
-    ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthFixed, 350 * scale);
+    const float keys = 230 * scale;
+    const float room = static_cast<float>(area.width) - keys - 60 * scale;  // of a small window
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, keys);
+    ImGui::TableSetupColumn("does", ImGuiTableColumnFlags_WidthFixed,
+                            std::clamp(room, 60 * scale, 460 * scale));
     for (const auto& row : bindings()) {
       ImGui::TableNextColumn();
       key_cell(row.key);
@@ -140,13 +147,13 @@ void draw_help(WindowState& state, Rect area, float scale) {
         ImGui::TextDisabled("(%.*s)", static_cast<int>(row.button.size()), row.button.data());
       }
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(row.does.data(), row.does.data() + row.does.size());
+      wrapped(row.does);
     }
     for (const auto& gesture : gestures()) {
       ImGui::TableNextColumn();
       key_cell(gesture.how);
       ImGui::TableNextColumn();
-      ImGui::TextUnformatted(gesture.does.data(), gesture.does.data() + gesture.does.size());
+      wrapped(gesture.does);
     }
     ImGui::EndTable();
     ImGui::TextDisabled("In brackets: the game controller.");

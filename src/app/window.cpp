@@ -37,6 +37,14 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+// For pictures in a window on the first screen, its frame and status line taken off.
+Rect screen_room() {
+  SDL_Rect usable{};
+  if (SDL_GetDisplayUsableBounds(0, &usable) != 0) return {0, 0, 1 << 15, 1 << 15};
+  constexpr int title_bar = 40;  // of what is not there yet nobody knows the height
+  return {0, 0, usable.w, usable.h - title_bar - status_height(1)};
+}
+
 class Window {
  public:
   explicit Window(const WindowOptions& options)
@@ -86,7 +94,8 @@ class Window {
 scene::Result<void> Window::open() {
   if (!sdl_.is_open()) return scene::fail(sdl_.error() + "; `otter render` needs none");
   const auto failed = [] { return scene::fail(std::string("no window could be opened: ") + SDL_GetError()); };
-  const auto size = wanted_area(state_.knobs.width, state_.knobs.height, options_.scale);
+  const auto size =
+      wanted_area_within(state_.knobs.width, state_.knobs.height, options_.scale, screen_room());
   window_.reset(SDL_CreateWindow("Otter", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width,
                                  size.height + status_height(1), SDL_WINDOW_RESIZABLE));
   if (!window_) return failed();

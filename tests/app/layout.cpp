@@ -42,4 +42,11 @@ TEST_SUITE("window") {
       }
     }
   }
+
+  TEST_CASE("a window is first as large as asked, or by whole numbers as large as the screen has room for") {
+    CHECK(app::wanted_area_within(320, 240, 3, {0, 0, 1920, 1000}) == app::Rect{0, 0, 960, 720});
+    CHECK(app::wanted_area_within(640, 480, 3, {0, 0, 1280, 960}) == app::Rect{0, 0, 1280, 960});
+    CHECK(app::wanted_area_within(640, 480, 3, {0, 0, 1280, 959}) == app::Rect{0, 0, 640, 480});
+    CHECK(app::wanted_area_within(640, 480, 3, {0, 0, 100, 100}) == app::Rect{0, 0, 640, 480});
+  }
 }
