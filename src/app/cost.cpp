@@ -1,13 +1,13 @@
 // otter cost: what every setting of accuracy costs in time, and what error it leaves.
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "app/commands.h"
+#include "app/interrupt.h"
 #include "app/open_scene.h"
 #include "app/progress.h"
 #include "cost/report.h"
@@ -24,21 +24,6 @@ struct Options {
   int rounds = 9;
   std::uint32_t frame = 30;
   std::string size = "320x240", json, csv, html;
-};
-
-volatile std::sig_atomic_t interrupted = 0;
-void note_interrupt(int) { interrupted = 1; }
-
-/// SIGINT sets a flag while this lives.
-class InterruptFlag {
- public:
-  InterruptFlag() : before_(std::signal(SIGINT, note_interrupt)) {}
-  ~InterruptFlag() { std::signal(SIGINT, before_); }
-  InterruptFlag(const InterruptFlag&) = delete;
-  InterruptFlag& operator=(const InterruptFlag&) = delete;
-
- private:
-  void (*before_)(int);
 };
 
 scene::Result<std::vector<const cost::Axis*>> chosen_axes(const std::vector<std::string>& names) {
@@ -104,11 +89,11 @@ scene::Result<int> run_cost(Options& o) {
     if (!opened) return tl::make_unexpected(opened.error());
     scenes.push_back(std::move(*opened));
   }
-  const InterruptFlag flag;
-  sweep.stop = [] { return interrupted != 0; };
+  const Interrupt interrupt;
+  sweep.stop = [&] { return interrupt.was_asked(); };
   cost::Report report{command_line(o), cost::machine_name(), gte::batch_target(), {}};
   for (auto& scene : scenes) {
-    if (interrupted != 0) break;
+    if (interrupt.was_asked()) break;
     std::unique_ptr<Progress> progress;
     sweep.progress = [&, name = scene.name](std::size_t, std::size_t all) {
       if (!progress) progress = std::make_unique<Progress>("cost " + name, all);
@@ -120,7 +105,7 @@ scene::Result<int> run_cost(Options& o) {
     report.scenes.push_back(std::move(*result));
   }
   if (auto written = write_all(o, report); !written) return tl::make_unexpected(written.error());
-  return interrupted != 0 ? static_cast<int>(scene::Exit::interrupted) : 0;
+  return interrupt.was_asked() ? static_cast<int>(scene::Exit::interrupted) : 0;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "app/dump_file.h"
+#include "app/interrupt.h"
 #include "app/machine.h"
 #include "app/open_scene.h"
 #include "app/options.h"
@@ -283,7 +284,8 @@ scene::Result<int> run(const Options& options) {
   std::vector<inspect::Report> reports;
   std::uint64_t wrong = 0;
   Progress progress("inspect", std::size_t{frames->last} - frames->first + 1);
-  for (std::uint32_t n = frames->first; n <= frames->last; ++n) {
+  const Interrupt interrupt;
+  for (std::uint32_t n = frames->first; n <= frames->last && !interrupt.was_asked(); ++n) {
     trace.clear();
     auto watched = (*source)->frame(n, trace);
     if (!watched) return tl::make_unexpected(watched.error());
@@ -298,6 +300,11 @@ scene::Result<int> run(const Options& options) {
     progress.step();
   }
   if (auto done = write_json(options, reports); !done) return done;
+  if (interrupt.was_asked()) {
+    return scene::fail("interrupted: the report holds " + std::to_string(reports.size()) + " frames of " +
+                           std::to_string(std::size_t{frames->last} - frames->first + 1),
+                       scene::Exit::interrupted);
+  }
   if (options.max >= 0 && wrong > static_cast<std::uint64_t>(options.max)) {
     return scene::fail(
         "--max " + std::to_string(options.max) + ": " + std::to_string(wrong) + " pixels are wrong",
