@@ -138,15 +138,15 @@ TEST_SUITE("otter") {
         {"run --pace 3", {"--pace", "vsync"}},
         {"run --scale 0", {"--scale"}},
     };
-    for (const auto& [arguments, said] : rows) {
-      const auto outcome = folder.otter(arguments);
-      CAPTURE(std::string(arguments));
+    for (const auto& row : rows) {
+      const auto outcome = folder.otter(row.arguments);
+      CAPTURE(std::string(row.arguments));
       CAPTURE(outcome.err);
       CHECK(outcome.status == 2);
       CHECK(outcome.out.empty());
       CHECK(is_one_line(outcome.err));
       CHECK(outcome.err.starts_with("otter"));
-      for (const auto& part : said) CHECK(mentions(outcome.err, part));
+      for (const auto& part : row.said) CHECK(mentions(outcome.err, part));
       CHECK_FALSE(folder.has("x.png"));
     }
   }

@@ -59,27 +59,27 @@ TEST_SUITE("window") {
       const char* key;
       KeyAction action;
     };
-    for (const auto& [key, action] : {Promise{"Tab", KeyAction::switch_visibility},
-                                      {"V", KeyAction::split},
-                                      {"D", KeyAction::differences},
-                                      {"Space", KeyAction::pause},
-                                      {"N", KeyAction::next_frame},
-                                      {"PageDown", KeyAction::next_scene},
-                                      {"PageUp", KeyAction::previous_scene},
-                                      {"F1", KeyAction::help},
-                                      {"H", KeyAction::help},
-                                      {"F2", KeyAction::knobs},
-                                      {"K", KeyAction::knobs},
-                                      {"F3", KeyAction::vram},
-                                      {"F11", KeyAction::fullscreen},
-                                      {"C", KeyAction::cost},
-                                      {"F12", KeyAction::screenshot},
-                                      {"Escape", KeyAction::quit},
-                                      {"Q", KeyAction::quit}}) {
-      CAPTURE(key);
-      const auto asked = app::asked_by_key(key);
+    for (const auto& promise : {Promise{"Tab", KeyAction::switch_visibility},
+                                {"V", KeyAction::split},
+                                {"D", KeyAction::differences},
+                                {"Space", KeyAction::pause},
+                                {"N", KeyAction::next_frame},
+                                {"PageDown", KeyAction::next_scene},
+                                {"PageUp", KeyAction::previous_scene},
+                                {"F1", KeyAction::help},
+                                {"H", KeyAction::help},
+                                {"F2", KeyAction::knobs},
+                                {"K", KeyAction::knobs},
+                                {"F3", KeyAction::vram},
+                                {"F11", KeyAction::fullscreen},
+                                {"C", KeyAction::cost},
+                                {"F12", KeyAction::screenshot},
+                                {"Escape", KeyAction::quit},
+                                {"Q", KeyAction::quit}}) {
+      CAPTURE(promise.key);
+      const auto asked = app::asked_by_key(promise.key);
       REQUIRE(asked);
-      CHECK(asked->action == action);
+      CHECK(asked->action == promise.action);
     }
   }
 

@@ -26,14 +26,18 @@ glm::vec3 face_normal(const Mesh& mesh, const Face& f) {
 
 TEST_SUITE("loaders") {
   TEST_CASE("every solid is closed and faces outwards") {
-    for (const auto& [name, mesh] : solids()) {
+    for (const auto& solid : solids()) {
+      const char* name = solid.first;
+      const Mesh& mesh = solid.second;
       CAPTURE(name);
       for (const bool closed : scene::faces_of_closed_surfaces(mesh)) CHECK(closed);
     }
   }
 
   TEST_CASE("normals have length one and lie within 60 degrees of their face's own") {
-    for (const auto& [name, mesh] : solids()) {
+    for (const auto& solid : solids()) {
+      const char* name = solid.first;
+      const Mesh& mesh = solid.second;
       CAPTURE(name);
       if (mesh.normals.empty()) continue;
       REQUIRE(mesh.normals.size() == mesh.positions.size());
@@ -48,7 +52,9 @@ TEST_SUITE("loaders") {
   }
 
   TEST_CASE("solids have the size asked for, centred on the origin") {
-    for (const auto& [name, mesh] : solids()) {
+    for (const auto& solid : solids()) {
+      const char* name = solid.first;
+      const Mesh& mesh = solid.second;
       CAPTURE(name);
       scene::Bounds bounds;
       for (const glm::vec3& p : mesh.positions) bounds.include(p);

@@ -141,9 +141,10 @@ TEST_SUITE("stability") {
                   "one hash each, the same in every build",
                   "hashes",
                   0};
-    for (const auto& [demo, expected] : rows) {
-      const auto seen = hashes_of_frame(demo, {});
-      CAPTURE(std::string(demo));
+    for (const auto& row : rows) {
+      const FrameHashes& expected = row.expected;
+      const auto seen = hashes_of_frame(row.demo, {});
+      CAPTURE(std::string(row.demo));
       CHECK_MESSAGE(seen.list == expected.list, hex(seen.list));
       CHECK_MESSAGE(seen.vram == expected.vram, hex(seen.vram));
       wrong.see((seen.list != expected.list) + (seen.vram != expected.vram), 2);
