@@ -193,9 +193,9 @@ TEST_SUITE("stability") {
                            lower ? coordinate(0, 511 * 256 + 255) : coordinate(-503 * 256, 8 * 256 + 255),
                            colour});
       }
-      const auto rows = std::ranges::minmax({corners[0].y >> 8, corners[1].y >> 8, corners[2].y >> 8});
-      const auto columns = std::ranges::minmax({corners[0].x >> 8, corners[1].x >> 8, corners[2].x >> 8});
-      if (rows.max - rows.min > 511 || columns.max - columns.min > 1023) continue;
+      const auto rows = std::minmax({corners[0].y >> 8, corners[1].y >> 8, corners[2].y >> 8});
+      const auto columns = std::minmax({corners[0].x >> 8, corners[1].x >> 8, corners[2].x >> 8});
+      if (rows.second - rows.first > 511 || columns.second - columns.first > 1023) continue;
       studio.draw(polygon(0x20, corners));
       const auto t = placed(corners, 8);
       int bad = 0;
