@@ -103,7 +103,7 @@ std::string line_of(std::uint64_t offset, const char* port, const std::string& d
 }  // namespace
 
 scene::Result<gpu::Dump> read_dump(const std::filesystem::path& path) {
-  const auto file = read_file(path);
+  const auto file = read_file(path, gpu::max_unpacked_bytes);
   if (!file) return tl::make_unexpected(file.error());
   const auto fail = [&](std::uint64_t offset, const char* where, const std::string& text) {
     return scene::fail(path.string() + ": byte " + std::to_string(offset) + where + ": " + text);
@@ -137,9 +137,9 @@ scene::Result<void> save_vram(const std::filesystem::path& path, const gpu::Vram
 }
 
 scene::Result<void> load_vram(const std::filesystem::path& path, gpu::Vram& vram) {
-  const auto file = read_file(path);
-  if (!file) return tl::make_unexpected(file.error());
   const auto pixels = vram.pixels();
+  const auto file = read_file(path, 2 * pixels.size());
+  if (!file) return tl::make_unexpected(file.error());
   if (file->size() != 2 * pixels.size()) {
     return scene::fail(path.string() + ": expected " + std::to_string(2 * pixels.size()) +
                        " bytes of VRAM, got " + std::to_string(file->size()));

@@ -17,8 +17,10 @@ struct Options {
   bool all = false;
 };
 
+constexpr std::uint64_t max_csv_bytes = std::uint64_t{1} << 30;
+
 scene::Result<int> gte_check(const Options& options) {
-  const auto bytes = read_file(options.file);
+  const auto bytes = read_file(options.file, max_csv_bytes);
   if (!bytes) return tl::make_unexpected(bytes.error());
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
   const auto outcome = gte::check_csv(text, std::cout, options.all);

@@ -46,7 +46,7 @@ scene::Result<std::uint32_t> address_option(const char* option, const std::strin
 }
 
 scene::Result<ot::MainRam> read_image(const std::string& path) {
-  const auto bytes = read_file(path);
+  const auto bytes = read_file(path, static_cast<std::uint64_t>(ot::RamSize::mib8));
   if (!bytes) return tl::make_unexpected(bytes.error());
   for (const auto size : {ot::RamSize::mib2, ot::RamSize::mib8}) {
     if (bytes->size() != static_cast<std::size_t>(size)) continue;

@@ -172,6 +172,16 @@ TEST_SUITE("otter") {
     CHECK_FALSE(report.is_discarded());
   }
 
+  TEST_CASE("an input without end is exit 2 and one line that tells the limit, within bounded memory") {
+    const Folder folder;
+    const auto ended = folder.run({"walk", "/dev/zero", "--head", "0"});
+    CAPTURE(ended.err);
+    CHECK(ended.status == 2);
+    CHECK(is_one_line(ended.err));
+    CHECK(ended.err.find("/dev/zero: more than 8388608 bytes") != std::string::npos);
+    CHECK(ended.peak_bytes < 1024 * mib);
+  }
+
   TEST_CASE("a dump that unpacks to more than 1 GiB is exit 2 and one line, within bounded memory") {
     const Folder folder;
     const auto frame = gpu::pack(std::vector<std::byte>(64 * mib), gpu::Compression::zstd);
