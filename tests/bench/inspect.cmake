@@ -1,0 +1,1 @@
+otter_bench(inspect LIBRARIES inspect SOURCES inspect.cpp)
