@@ -4,4 +4,5 @@ otter_suite(canvas
     canvas_antialias.cpp
     canvas_attributes.cpp
     canvas_console.cpp
+    canvas_mips.cpp
     canvas_seams.cpp)

@@ -84,7 +84,12 @@ WithoutDepth Canvas::end_frame() {
 
 bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id) {
   const Clip inside = clip(p.state);
-  if (inside.columns.is_empty() || inside.rows.is_empty()) return false;
+  if (inside.columns.is_empty() || inside.rows.is_empty()) {
+    const DrawState& state = p.state;
+    mips_.forget(
+        {state.left(), state.top(), state.right() - state.left() + 1, state.bottom() - state.top() + 1});
+    return false;
+  }
   const Paint how = paint(p, vram, clut, id);
   switch (p.kind) {
     case Kind::polygon:
@@ -183,7 +188,7 @@ Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* c
   paint.filter = options_.filter;
   paint.box = texel_box(p);
   if (paint.filter >= Filter::mipmap) {
-    paint.mips = &mips_.chain(paint.texture, state, p.clut);
+    paint.mips = &mips_.chain(paint.texture, state);
     // S layers are S finer pixels to the area of one: half a level for each doubling.
     paint.level_bias = -half_log2(static_cast<float>(options_.layers.size()));
   }

@@ -24,6 +24,26 @@ Pixel mean(const std::array<Pixel, 4>& four) {
   return result;
 }
 
+constexpr std::ptrdiff_t palette_size(TexelFormat format) {
+  return format == TexelFormat::clut4 ? 16 : format == TexelFormat::clut8 ? 256 : 0;
+}
+
+/// Pixels of VRAM that hold 256 texels side by side.
+constexpr int page_width(TexelFormat format) {
+  return format == TexelFormat::clut4 ? 64 : format == TexelFormat::clut8 ? 128 : 256;
+}
+
+/// Do `a` and the `a_length` after it meet `b` and the `b_length` after it, on a ring of `size` (a power of
+/// two) places?
+constexpr bool overlap(int a, int a_length, int b, int b_length, int size) {
+  return ((b - a) & (size - 1)) < a_length || ((a - b) & (size - 1)) < b_length;
+}
+
+constexpr bool overlap(const Area& a, const Area& b) {
+  return overlap(a.x, a.width, b.x, b.width, Vram::width) &&
+         overlap(a.y, a.height, b.y, b.height, Vram::height);
+}
+
 }  // namespace
 
 Pixel fetch(const TextureView& view, TexelFormat format, int u, int v) {
@@ -59,17 +79,27 @@ MipChain::MipChain(const TextureView& view, TexelFormat format) {
   }
 }
 
-const MipChain& MipCache::chain(const TextureView& view, const DrawState& state, std::uint16_t clut_word) {
-  const bool paletted = state.texel_format() != TexelFormat::direct15;
-  const std::uint64_t key = (state.draw_mode & 0x19f) | std::uint64_t{state.texture_window} << 12 |
-                            (paletted ? std::uint64_t{clut_word} << 32 : 0);
-  const auto found = std::ranges::find(chains_, key, &Entry::key);
+const MipChain& MipCache::chain(const TextureView& view, const DrawState& state) {
+  const auto format = state.texel_format();
+  const auto colours = palette_size(format);
+  const std::uint32_t key = (state.draw_mode & 0x19f) | state.texture_window << 12;
+  const auto found = std::ranges::find_if(chains_, [&](const Entry& entry) {
+    return entry.key == key && std::equal(entry.clut.begin(), entry.clut.end(), view.clut);
+  });
   if (found != chains_.end()) {
     chains_.splice(chains_.begin(), chains_, found);
   } else {
-    chains_.push_front({key, MipChain(view, state.texel_format())});
+    if (chains_.size() == most) chains_.pop_back();
+    chains_.push_front({key,
+                        {view.clut, view.clut + colours},
+                        {view.page_x, view.page_y, page_width(format), 256},
+                        MipChain(view, format)});
   }
   return chains_.front().chain;
+}
+
+void MipCache::forget(const Area& written) {
+  std::erase_if(chains_, [&](const Entry& entry) { return overlap(entry.page, written); });
 }
 
 std::uint64_t MipCache::bytes() const {

@@ -31,17 +31,28 @@ class MipChain {
   std::vector<Pixel> texels_;
 };
 
-/// The chains of the pages in use. They live until VRAM is written by a fill, copy or upload (`forget`).
+/// A rectangle of VRAM, which wraps at both edges.
+struct Area {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// The chains of the pages in use, at most `most`. One lives until what it was made from is written to: its
+/// page (`forget`); palettes are compared.
 class MipCache {
  public:
-  /// The chain of a page; `clut_word` and the window in `state` tell views of one page apart.
-  const MipChain& chain(const TextureView& view, const DrawState& state, std::uint16_t clut_word);
-  void forget() { chains_.clear(); }
+  static constexpr std::size_t most = 64;
+
+  /// The chain of a page as `view` and `state` read it; stays where it is until the next call.
+  const MipChain& chain(const TextureView& view, const DrawState& state);
+  /// VRAM was changed inside `written`.
+  void forget(const Area& written);
   [[nodiscard]] std::uint64_t bytes() const;
 
  private:
   struct Entry {
-    std::uint64_t key;
+    std::uint32_t key;  // page, format and window
+    std::vector<std::uint16_t> clut;
+    Area page;
     MipChain chain;
   };
   std::list<Entry> chains_;  // most recently used first; a list, so that chains do not move

@@ -1,6 +1,7 @@
 // Fills, copies and uploads: what changes VRAM without drawing changes the canvas alike.
 
 #include <algorithm>
+#include <array>
 
 #include "gpu/canvas/canvas.h"
 #include "gpu/canvas/texel.h"
@@ -16,6 +17,13 @@ void for_each_pixel(Vertex corner, int width, int height, F&& f) {
       f((corner.x + i) & (Vram::width - 1), (corner.y + j) & (Vram::height - 1), i, j);
     }
   }
+}
+
+/// The columns x .. x + width - 1 of VRAM, which wrap: to the right edge, and from the left one.
+std::array<Range, 2> parts(int x, int width) {
+  x &= Vram::width - 1;
+  const int end = x + width;
+  return {Range{x, std::min(end, Vram::width)}, Range{0, std::min(x, end - Vram::width)}};
 }
 
 /// The samples of one VRAM pixel in every layer: `scale` rows of `scale` pixels.
@@ -47,7 +55,7 @@ class Blocks {
 
 void Canvas::transfer(const Primitive& p, const Vram& vram) {
   draw_queue();
-  mips_.forget();
+  mips_.forget({p.vertices[0].x, p.vertices[0].y, p.width, p.height});
   switch (p.kind) {
     case Kind::fill:
       return fill(p);
@@ -64,15 +72,19 @@ void Canvas::fill(const Primitive& p) {
   const Blocks blocks(grid_, options_, samples());
   const Pixel quantise = options_.colour == Colour::bits15 ? 0xf8f8f8 : 0xffffff;
   const Pixel colour = p.command & quantise;
-  for_each_pixel(p.vertices[0], p.width, p.height, [&](int x, int y, int, int) {
-    if (!blocks.contains(x, y)) return;
-    for (Layer& layer : layers_) {
-      for (int row = 0; row < options_.scale; ++row) {
-        std::fill_n(layer.colour.begin() + static_cast<std::ptrdiff_t>(blocks.row(x, y, row)),
-                    blocks.row_length(), colour);
+  for (int j = 0; j < p.height; ++j) {
+    const int y = (p.vertices[0].y + j) & (Vram::height - 1);
+    for (const Range part : parts(p.vertices[0].x, p.width)) {
+      const Range columns = intersect(part, {grid_.x, grid_.x + options_.width});
+      if (columns.is_empty() || !blocks.contains(columns.begin, y)) continue;
+      const auto length = static_cast<std::size_t>(columns.end - columns.begin) * blocks.row_length();
+      for (Layer& layer : layers_) {
+        for (int row = 0; row < options_.scale; ++row) {
+          std::fill_n(&layer.colour[blocks.row(columns.begin, y, row)], length, colour);
+        }
       }
     }
-  });
+  }
 }
 
 /// Pixels whose source is on the canvas too. A row is read whole before it is written, as in VRAM.
