@@ -1,8 +1,15 @@
 // otter cost: what every setting of accuracy costs in time, and what error it leaves.
 
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,7 +42,7 @@ scene::Result<std::vector<const cost::Axis*>> chosen_axes(const std::vector<std:
       for (const auto& a : cost::axes()) known += (known.empty() ? "" : ", ") + std::string(a.name);
       return scene::fail("--axes " + name + ": expected some of " + known);
     }
-    list.push_back(axis);
+    if (std::ranges::find(list, axis) == list.end()) list.push_back(axis);
   }
   return list;
 }
@@ -69,9 +76,31 @@ scene::Result<void> write_all(const Options& o, const cost::Report& report) {
   }
   if (o.html.empty()) return {};
   const auto html = cost::to_html(report);
-  if (!html.has_plots)
+  auto done = write(o.html, html.page);
+  if (done && !html.has_plots)
     std::fprintf(stderr, "otter: gnuplot cannot be run: %s has no plots\n", o.html.c_str());
-  return write(o.html, html.page);
+  return done;
+}
+
+/// What can be known before minutes are spent: the folder is there, and only one report goes to stdout.
+scene::Result<void> check_outputs(const Options& o) {
+  namespace fs = std::filesystem;
+  const std::array names{&o.json, &o.csv, &o.html};
+  if (std::ranges::count(names, "-", [](const std::string* name) { return *name; }) > 1) {
+    return scene::fail("more than one of --json, --csv and --html is -: expected one on standard output");
+  }
+  for (const std::string* name : names) {
+    std::error_code ignored;
+    const fs::path path(*name);
+    if (name->empty() || *name == "-" || fs::is_other(path, ignored)) continue;
+    const auto folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const int error = fs::is_directory(path, ignored)            ? EISDIR
+                      : access(folder.c_str(), W_OK | X_OK) != 0 ? errno
+                                                                 : 0;
+    if (error != 0)
+      return scene::fail(*name + ": cannot be written: " + std::strerror(error), scene::Exit::failed);
+  }
+  return {};
 }
 
 scene::Result<int> run_cost(Options& o) {
@@ -83,6 +112,7 @@ scene::Result<int> run_cost(Options& o) {
   sweep.quick = o.quick;
   sweep.rounds = o.rounds;
   if (auto set = scene::set_knob(sweep.given, "size", o.size); !set) return tl::make_unexpected(set.error());
+  if (auto checked = check_outputs(o); !checked) return tl::make_unexpected(checked.error());
   std::vector<scene::Scene> scenes;
   for (const auto& name : o.scenes) {
     auto opened = open_scene(name);
@@ -92,20 +122,33 @@ scene::Result<int> run_cost(Options& o) {
   const Interrupt interrupt;
   sweep.stop = [&] { return interrupt.was_asked(); };
   cost::Report report{command_line(o), cost::machine_name(), gte::batch_target(), {}};
+  std::optional<scene::Error> failed;  // what was measured before is reported all the same
   for (auto& scene : scenes) {
     if (interrupt.was_asked()) break;
     std::unique_ptr<Progress> progress;
-    sweep.progress = [&, name = scene.name](std::size_t, std::size_t all) {
+    sweep.progress = [&, name = scene.name](std::size_t done, std::size_t all, double seconds_left) {
       if (!progress) progress = std::make_unique<Progress>("cost " + name, all);
-      progress->step();
+      progress->show(done, seconds_left);
     };
     cost::Subject subject(std::move(scene), o.frame);
     auto result = cost::sweep(subject, sweep);
-    if (!result) return tl::make_unexpected(result.error());
+    if (!result) {
+      failed = result.error();
+      break;
+    }
     report.scenes.push_back(std::move(*result));
   }
-  if (auto written = write_all(o, report); !written) return tl::make_unexpected(written.error());
-  return interrupt.was_asked() ? static_cast<int>(scene::Exit::interrupted) : 0;
+  if (!report.scenes.empty()) {
+    if (auto written = write_all(o, report); !written) return tl::make_unexpected(written.error());
+  }
+  if (failed) return tl::make_unexpected(*failed);
+  if (!interrupt.was_asked()) return 0;
+  std::size_t settings = 0;
+  for (const auto& scene : report.scenes) settings += scene.rows.size();
+  return scene::fail("interrupted: the report holds " + std::to_string(settings) + " settings of " +
+                         std::to_string(report.scenes.size()) + " of " + std::to_string(o.scenes.size()) +
+                         " scenes",
+                     scene::Exit::interrupted);
 }
 
 }  // namespace

@@ -15,15 +15,19 @@ Progress::~Progress() {
 }
 
 void Progress::step() {
-  ++done_;
+  const std::chrono::duration<double> taken = Clock::now() - begin_;
+  const auto done = static_cast<double>(done_ + 1);
+  show(done_ + 1, taken.count() / done * (static_cast<double>(steps_) - done));
+}
+
+void Progress::show(std::size_t done, double seconds_left) {
+  done_ = done;
   const auto now = Clock::now();
   using namespace std::chrono_literals;
   if (!is_terminal_ || now - begin_ < 2s || now - printed_ < 100ms || done_ >= steps_) return;
   printed_ = now;
   shown_ = true;
-  const std::chrono::duration<double> taken = now - begin_;
-  const double left = taken.count() / static_cast<double>(done_) * static_cast<double>(steps_ - done_);
-  std::fprintf(stderr, "\r\x1b[K%s: %zu of %zu, %.0f s left", what_.c_str(), done_, steps_, left);
+  std::fprintf(stderr, "\r\x1b[K%s: %zu of %zu, %.0f s left", what_.c_str(), done_, steps_, seconds_left);
   std::fflush(stderr);
 }
 

@@ -16,6 +16,8 @@ class Progress {
 
   /// One more step is done. Prints at most ten times a second: "what: 3 of 10, 12 s left".
   void step();
+  /// `done` steps are done, and `seconds_left` are left by the caller's own reckoning.
+  void show(std::size_t done, double seconds_left);
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -1,6 +1,7 @@
 #include "cost/sweep.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "cost/metrics.h"
 
@@ -13,6 +14,35 @@ struct Job {
   std::vector<std::size_t> rows;
   std::vector<Stages> samples;
   std::uint64_t bytes = 0;
+};
+
+double now_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// How long a sweep will still take. Settings differ a thousandfold in time, so that steps alone tell
+/// little.
+class Forecast {
+ public:
+  Forecast(std::size_t jobs, int rounds) : jobs_(jobs), rounds_(rounds) {}
+  /// A job was drawn and its errors measured: a draw takes `draw`, both `all` seconds.
+  void first_round(double draw, double all) {
+    ++measured_;
+    draw_sum_ += draw;
+    all_sum_ += all;
+  }
+  /// A job was drawn again.
+  void later_round(double draw) { drawn_sum_ += draw; }
+  [[nodiscard]] double seconds_left() const {
+    const double share =
+        static_cast<double>(jobs_) / static_cast<double>(std::max<std::size_t>(1, measured_));
+    return all_sum_ * (share - 1) + std::max(0.0, draw_sum_ * share * (rounds_ - 1) - drawn_sum_);
+  }
+
+ private:
+  std::size_t jobs_, measured_ = 0;
+  int rounds_;
+  double draw_sum_ = 0, all_sum_ = 0, drawn_sum_ = 0;
 };
 
 scene::Knobs base_of(Direction direction, const Axis& axis, const scene::Knobs& given) {
@@ -118,9 +148,10 @@ scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) 
   auto jobs = jobs_of(rows);
   const std::size_t steps = jobs.size() * static_cast<std::size_t>(options.rounds);
   std::size_t done = 0;
+  Forecast forecast(jobs.size(), options.rounds);
   const auto stopped = [&] { return options.stop && options.stop(); };
   const auto step = [&] {
-    if (options.progress) options.progress(++done, steps);
+    if (options.progress) options.progress(++done, steps, forecast.seconds_left());
   };
 
   ErrorMeter meter(subject, options.given);
@@ -130,8 +161,11 @@ scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) 
   // Errors in the first round: they do not change from round to round.
   for (auto& job : jobs) {
     if (stopped()) break;
+    const double start = now_seconds();
     const auto drawn = subject.draw(job.knobs);
+    const double seconds = now_seconds() - start;
     const auto errors = drawn ? meter.measure(job.knobs) : tl::make_unexpected(drawn.error());
+    forecast.first_round(seconds, now_seconds() - start);
     step();
     if (!errors) {
       const Row& first = rows[job.rows.front()];
@@ -153,7 +187,9 @@ scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) 
   for (int round = 1; round < options.rounds && !stopped(); ++round) {
     for (auto& job : jobs) {
       if (stopped()) break;
+      const double start = now_seconds();
       if (const auto drawn = subject.draw(job.knobs)) job.samples.push_back(drawn->stages);
+      forecast.later_round(now_seconds() - start);
       step();
     }
   }

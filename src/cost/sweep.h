@@ -1,6 +1,7 @@
 #pragma once
 // Runs a scene over the settings of the axes, interleaved, and keeps medians.
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -17,7 +18,8 @@ struct SweepOptions {
   int rounds = 9;
   scene::Knobs given;          ///< picture size, table length, near and far
   std::function<bool()> stop;  ///< asked between frames; true ends the sweep with what it has
-  std::function<void(std::size_t done, std::size_t all)> progress;
+  /// Called after every frame drawn, of `all`; the time left is judged by what each setting took so far.
+  std::function<void(std::size_t done, std::size_t all, double seconds_left)> progress;
 };
 
 enum class Direction : std::uint8_t {

@@ -110,6 +110,10 @@ TEST_SUITE("otter") {
         {"replay", "good.psxgpu", "--vram", "old"},
         {"inspect", "crates", "--json", "old"},
         {"inspect", "crates", "--heatmap", "old"},
+        {"effects", "cyclic", "--json", "old"},
+        {"cost", "cyclic", "--axes", "fog", "--rounds", "1", "--json", "old"},
+        {"cost", "cyclic", "--axes", "fog", "--rounds", "1", "--csv", "old"},
+        {"cost", "cyclic", "--axes", "fog", "--rounds", "1", "--html", "old"},
     };
     for (const auto& words : writers) {
       folder.put("old", "what was there");
@@ -180,6 +184,36 @@ TEST_SUITE("otter") {
     CHECK(is_one_line(ended.err));
     CHECK(ended.err.find("/dev/zero: more than 8388608 bytes") != std::string::npos);
     CHECK(ended.peak_bytes < 1024 * mib);
+  }
+
+  TEST_CASE("Ctrl-C in a cost report ends it with exit 130 and every file whole, holding what was measured") {
+    const Folder folder;
+    const auto child = folder.start({"cost", "cyclic", "cyclic", "--axes", "colour", "--rounds", "1000",
+                                     "--json", "part.json", "--csv", "part.csv", "--html", "part.html"});
+    // Linux tells which signals a process catches: then the measuring has begun.
+    const auto catches_interrupt = [child] {
+      const auto status = contents("/proc/" + std::to_string(child) + "/status");
+      const auto at = status.find("SigCgt:");
+      return at != std::string::npos &&
+             (std::stoull(status.substr(at + 7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+    };
+    for (int i = 0; i < 6000 && !catches_interrupt(); ++i) usleep(10'000);
+    REQUIRE(catches_interrupt());
+    sleep(2);
+    kill(child, SIGINT);
+    const auto ended = folder.end(child);
+    CAPTURE(ended.err);
+    CHECK(ended.status == 130);
+    CHECK(is_one_line(ended.err));
+    const auto report = nlohmann::json::parse(contents(folder.path / "part.json"), nullptr, false);
+    REQUIRE_FALSE(report.is_discarded());
+    REQUIRE(report["scenes"].size() == 1);
+    CHECK(report["scenes"][0]["complete"] == false);
+    const auto csv = contents(folder.path / "part.csv");
+    CHECK(csv.starts_with("scene,axis,"));
+    CHECK(csv.ends_with("\r\n"));
+    CHECK(contents(folder.path / "part.html").ends_with("</html>\n"));
+    CHECK_FALSE(folder.has_leftovers());
   }
 
   TEST_CASE("a dump that unpacks to more than 1 GiB is exit 2 and one line, within bounded memory") {
