@@ -39,7 +39,7 @@ scene::Result<std::vector<const cost::Axis*>> chosen_axes(const std::vector<std:
     const auto* axis = cost::find_axis(name);
     if (axis == nullptr) {
       std::string known;
-      for (const auto& a : cost::axes()) known += (known.empty() ? "" : ", ") + std::string(a.name);
+      for (const auto& a : cost::axes()) known.append(known.empty() ? "" : ", ").append(a.name);
       return scene::fail("--axes " + name + ": expected some of " + known);
     }
     if (std::ranges::find(list, axis) == list.end()) list.push_back(axis);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace app {
 namespace {
@@ -98,10 +99,10 @@ void draw_cost_panel(WindowState& state, const CostTable& table, Rect area, floa
       ImGui::TableSetupColumn("setting", ImGuiTableColumnFlags_WidthStretch);
       ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 64 * scale);
       ImGui::TableSetupColumn("ratio", ImGuiTableColumnFlags_WidthFixed, 56 * scale);
-      const cost::Axis* axis = nullptr;
+      std::string_view heading;
       for (const auto& line : table.lines()) {
-        if (line.axis != axis) draw_heading(*line.axis);
-        axis = line.axis;
+        if (line.axis->name != heading) draw_heading(*line.axis);
+        heading = line.axis->name;
         ImGui::TableNextRow();
         draw_line(state, table, line);
       }
