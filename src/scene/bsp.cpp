@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "scene/snap.h"
+
 namespace scene {
 namespace {
 
@@ -58,6 +60,24 @@ void SplitOrder::finish(int width, int height, std::uint8_t fraction_mask) {
     ordered_.push_back({triangles_[piece.triangle], piece.is_whole, std::move(piece.rows)});
   }
   place_lines();
+}
+
+std::uint32_t SplitOrder::snap_pieces() {
+  std::vector<OrderedPrimitive> whole;
+  std::vector<Primitive> triangles;
+  std::uint32_t pieces = 0;
+  for (OrderedPrimitive& o : ordered_) {
+    if (o.is_whole) {
+      whole.push_back(std::move(o));
+      continue;
+    }
+    ++pieces;
+    triangles.clear();
+    snap(o.primitive, o.rows, triangles);
+    for (const Primitive& triangle : triangles) whole.push_back({triangle, true, {}});
+  }
+  ordered_ = std::move(whole);
+  return pieces;
 }
 
 void SplitOrder::place_lines() {

@@ -30,6 +30,10 @@ class SplitOrder {
   /// fraction_y that the corners are drawn with; 0 for whole pixels.
   void finish(int width, int height, std::uint8_t fraction_mask);
 
+  /// After finish(): puts whole triangles in the place of pieces (scene/snap.h). Returns the number of
+  /// pieces.
+  std::uint32_t snap_pieces();
+
   [[nodiscard]] const std::vector<OrderedPrimitive>& far_to_near() const { return ordered_; }
   [[nodiscard]] std::uint32_t splits() const { return splits_; }
 

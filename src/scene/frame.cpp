@@ -59,8 +59,8 @@ std::uint8_t fraction_mask(Position position) {
 }  // namespace
 
 bool needs_depth(const Knobs& knobs) {
-  return knobs.visibility == Visibility::zbuffer || knobs.visibility == Visibility::bsp ||
-         knobs.texture == TextureAddress::perspective || knobs.fog == Fog::pixel || needs_fractions(knobs);
+  return knobs.visibility == Visibility::zbuffer || knobs.texture == TextureAddress::perspective ||
+         knobs.fog == Fog::pixel || needs_fractions(knobs);
 }
 
 bool needs_fractions(const Knobs& knobs) { return knobs.position != Position::integer; }
@@ -116,6 +116,12 @@ struct FrameBuilder::State {
     if (needs_fractions(knobs)) s.fraction_mask = fraction_mask(knobs.position);
     s.draw_mode = draw_mode_of(knobs);
     return s;
+  }
+
+  // bsp needs the depths, though the words it orders do not.
+  [[nodiscard]] Wanted wanted(const Knobs& knobs, const PacketStyle& style) const {
+    return {style.depth || knobs.visibility == Visibility::bsp, style.fractions,
+            world.depth_cue.on && knobs.fog == Fog::vertex};
   }
 
   [[nodiscard]] BucketRule rule(const Knobs& knobs) const {
@@ -299,7 +305,8 @@ void FrameBuilder::upload(gpu::Gpu& gpu) {
   for (const auto word : display_gp1()) gpu.gp1(word);
 }
 
-Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRam& ram, Annotate annotate) {
+Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRam& ram, Annotate annotate,
+                                  Pieces pieces) {
   State& s = *state_;
   if (needs_upload(knobs))
     return fail("the size or subdivide knob changed: prepare and upload first", Exit::failed);
@@ -316,7 +323,7 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
 
   const auto style = s.style(knobs, annotate);
   const auto environment = s.environment(knobs, frame.buffer_y);
-  const Wanted wanted{style.depth, style.fractions, s.world.depth_cue.on && knobs.fog == Fog::vertex};
+  const Wanted wanted = s.wanted(knobs, style);
   FrameStats collected;
   if (knobs.visibility == Visibility::bsp) {
     s.split.begin();
@@ -325,6 +332,7 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
     s.split.finish(knobs.width, knobs.height, style.fractions ? style.fraction_mask : std::uint8_t{0});
     collected.ot_ms += now_ms() - before_split;
     collected.splits = s.split.splits();
+    if (pieces == Pieces::snapped) collected.snapped = s.split.snap_pieces();
   }
   collected.gte_ms += frame.stats.gte_ms;
   frame.stats = collected;
@@ -366,7 +374,7 @@ Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
   if (s.next_range >= s.ranges.size()) return fail("no list is left of this frame", Exit::failed);
   const auto rule = s.rule(s.frame_knobs);
   const auto style = s.style(s.frame_knobs, s.frame_annotate);
-  const Wanted wanted{style.depth, style.fractions, s.world.depth_cue.on && s.frame_knobs.fog == Fog::vertex};
+  const Wanted wanted = s.wanted(s.frame_knobs, style);
   // The environment stays as it is, but the picture must not be filled again.
   auto environment = s.environment(s.frame_knobs, frame.buffer_y);
   environment.resize(environment.size() - 3);

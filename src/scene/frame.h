@@ -45,6 +45,7 @@ struct FrameStats {
   std::array<std::uint32_t, drop_reasons> dropped{};  ///< faces and lines that drew nothing, by Drop
   std::uint32_t clipped = 0;                          ///< faces and lines that were cut
   std::uint32_t splits = 0;                           ///< cuts that visibility bsp made
+  std::uint32_t snapped = 0;                          ///< pieces of polygons that became triangles (Pieces)
   std::uint32_t primitives = 0;                       ///< polygons and lines in the lists
   std::uint32_t lists = 0;                            ///< 1 unless the frame did not fit into RAM at once
   std::uint32_t words = 0;                            ///< payload words of all primitives and annotations
@@ -59,6 +60,10 @@ struct FrameStats {
 
 /// Depths in the list: only if a knob needs them, or always (recording for both ways of drawing, inspection).
 enum class Annotate : std::uint8_t { when_needed, always };
+
+/// The pieces of polygons that visibility bsp split: their parents, within limits that only the marks tell,
+/// or triangles of their own, which the words alone draw (scene/snap.h).
+enum class Pieces : std::uint8_t { limited, snapped };
 
 /// The list that is in RAM now. A frame that fits has one. Otherwise `nearer_lists` more follow: draw this
 /// one, then FrameBuilder::next puts the next nearer one in its place.
@@ -121,7 +126,8 @@ class FrameBuilder {
   /// The state of the world at `seconds`, as a list in `ram` (whose whole contents may be overwritten).
   /// Error: one bucket alone does not fit (bytes needed and available are named).
   [[nodiscard]] Result<Frame> build(double seconds, const Knobs& knobs, ot::MainRam& ram,
-                                    Annotate annotate = Annotate::when_needed);
+                                    Annotate annotate = Annotate::when_needed,
+                                    Pieces pieces = Pieces::limited);
   /// Puts the next nearer list into `ram`; needs frame.nearer_lists > 0 and the knobs of build().
   [[nodiscard]] Result<void> next(Frame& frame, ot::MainRam& ram);
 

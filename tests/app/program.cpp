@@ -68,13 +68,16 @@ TEST_SUITE("otter") {
     CHECK(folder.otter("--version").out.starts_with("otter "));
   }
 
-  TEST_CASE("a frame of split polygons is not recorded, because packets cannot say it") {
+  TEST_CASE("a frame of split polygons is recorded, and what that costs is said") {
     const Folder folder;
-    const auto refused = folder.otter("record cyclic -o x.psxgpu --visibility bsp");
-    CHECK(refused.status == 2);
-    CHECK(is_one_line(refused.err));
-    CHECK(mentions(refused.err, "--visibility bsp"));
-    CHECK_FALSE(folder.has("x.psxgpu"));
+    const auto recorded = folder.otter("record cyclic -o x.psxgpu --visibility bsp");
+    CHECK(recorded.status == 0);
+    CHECK(mentions(recorded.out, "pieces of split polygons were recorded as triangles"));
+    CHECK(mentions(recorded.out, "pixels differ from the live frames, by"));
+    CHECK(folder.has("x.psxgpu"));
+    CHECK(folder.otter("replay x.psxgpu --vram x.png").status == 0);
+    CHECK(mentions(folder.otter("record crates -o y.psxgpu --visibility bsp").out,
+                   "shows what the live frames show"));
   }
 
   TEST_CASE("every command has a help with examples of itself") {

@@ -35,6 +35,34 @@ std::unique_ptr<gpu::Gpu> replayed(const gpu::Dump& dump, gpu::DumpFormat format
   return gpu;
 }
 
+// Two flat quads that pierce each other.
+scene::Scene flat_crossing() {
+  scene::Scene scene;
+  scene.name = "flat crossing";
+  auto& world = scene.world;
+  world.materials[0].double_sided = true;
+  world.camera.position = {0, 0, 4};
+  scene::Mesh mesh;
+  mesh.positions = {{-1.3F, -1, -1}, {1.2F, -1, 1},  {1.2F, 1, 0.7F}, {-1.3F, 1, -0.8F},
+                    {-1, -1.2F, 1},  {1, -1, -1.1F}, {1, 1, -0.9F},   {-1, 0.9F, 1}};
+  mesh.faces.resize(2);
+  mesh.faces[0].vertex = {0, 1, 2, 3};
+  mesh.faces[0].colour.fill({200, 40, 40});
+  mesh.faces[1].vertex = {4, 5, 6, 7};
+  mesh.faces[1].colour.fill({40, 40, 200});
+  world.meshes.push_back(std::move(mesh));
+  world.instances.resize(1);
+  return scene;
+}
+
+// Frames 0 and 1 have a frame buffer each.
+std::uint64_t pixels_that_differ(const gpu::Gpu& a, const gpu::Gpu& b) {
+  std::uint64_t count = 0;
+  const auto x = a.vram().pixels(), y = b.vram().pixels();
+  for (std::size_t i = 0; i < x.size(); ++i) count += (x[i] & 0x7fff) != (y[i] & 0x7fff) ? 1 : 0;
+  return count;
+}
+
 bool same_vram(const gpu::Gpu& a, const gpu::Gpu& b) {
   return std::ranges::equal(a.vram().pixels(), b.vram().pixels());
 }
@@ -48,10 +76,10 @@ TEST_SUITE("app") {
       const auto scene = demos::make(demo);
       const scene::Knobs knobs;
       const auto live = drawn(scene, 3, knobs);
-      const auto dump = app::record(scene, 3, knobs, scene::Annotate::when_needed);
-      REQUIRE(dump);
-      CHECK(same_vram(*replayed(*dump, gpu::DumpFormat::standard, knobs), *live));
-      CHECK(same_vram(*replayed(*dump, gpu::DumpFormat::v1, knobs), *live));
+      const auto recording = app::record(scene, 3, knobs, scene::Annotate::when_needed);
+      REQUIRE(recording);
+      CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, knobs), *live));
+      CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::v1, knobs), *live));
     }
   }
 
@@ -60,10 +88,10 @@ TEST_SUITE("app") {
     const scene::Knobs plain;
     scene::Knobs depth;
     depth.visibility = scene::Visibility::zbuffer;
-    const auto dump = app::record(scene, 2, plain, scene::Annotate::always);
-    REQUIRE(dump);
-    CHECK(same_vram(*replayed(*dump, gpu::DumpFormat::standard, plain), *drawn(scene, 2, plain)));
-    const auto deep = replayed(*dump, gpu::DumpFormat::standard, depth);
+    const auto recording = app::record(scene, 2, plain, scene::Annotate::always);
+    REQUIRE(recording);
+    CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, plain), *drawn(scene, 2, plain)));
+    const auto deep = replayed(recording->dump, gpu::DumpFormat::standard, depth);
     CHECK_FALSE(same_vram(*deep, *drawn(scene, 2, plain)));
     CHECK(same_vram(*deep, *drawn(scene, 2, depth)));
   }
@@ -73,8 +101,68 @@ TEST_SUITE("app") {
     scene::Knobs tall;
     tall.width = 640;
     tall.height = 480;
-    const auto dump = app::record(scene, 3, tall, scene::Annotate::when_needed);
-    REQUIRE(dump);
-    CHECK(same_vram(*replayed(*dump, gpu::DumpFormat::standard, tall), *drawn(scene, 3, tall)));
+    const auto recording = app::record(scene, 3, tall, scene::Annotate::when_needed);
+    REQUIRE(recording);
+    CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, tall), *drawn(scene, 3, tall)));
+  }
+
+  const scene::Knobs bsp{.visibility = scene::Visibility::bsp};
+
+  TEST_CASE("a recording of split polygons replays, and says how many pixels that costs") {
+    for (const auto* name : {"cyclic", "crossing", "corridor"}) {
+      CAPTURE(name);
+      const auto scene = demos::make(*demos::find(name));
+      const auto recording = app::record(scene, 2, bsp, scene::Annotate::when_needed);
+      REQUIRE(recording);
+      const auto& cost = recording->snapped;
+      CHECK(cost.pieces > 0);
+      const auto live = drawn(scene, 2, bsp);
+      const auto replay = replayed(recording->dump, gpu::DumpFormat::standard, {});
+      CHECK(cost.pixels == pixels_that_differ(*live, *replay));
+      CHECK(cost.worst_pixels <= cost.pixels);
+      CHECK(cost.pixels <= 2 * cost.worst_pixels);
+      CHECK((cost.largest > 0) == (cost.pixels > 0));
+    }
+  }
+
+  TEST_CASE("flat polygons that are split lose nothing by being recorded") {
+    const auto scene = flat_crossing();
+    const auto recording = app::record(scene, 1, bsp, scene::Annotate::when_needed);
+    REQUIRE(recording);
+    CHECK(recording->snapped.pieces > 2);
+    CHECK(recording->snapped.pixels == 0);
+    const auto replay = replayed(recording->dump, gpu::DumpFormat::standard, {});
+    CHECK(same_vram(*replay, *drawn(scene, 1, bsp)));
+    CHECK_FALSE(same_vram(*replay, *drawn(scene, 1, {})));
+  }
+
+  TEST_CASE("a recording in the order of bsp that split nothing is exact") {
+    for (const auto* name : {"crates", "glass"}) {
+      CAPTURE(name);
+      const auto scene = demos::make(*demos::find(name));
+      const auto recording = app::record(scene, 2, bsp, scene::Annotate::when_needed);
+      REQUIRE(recording);
+      CHECK(recording->snapped == app::SnapCost{});
+      CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, {}), *drawn(scene, 2, bsp)));
+    }
+  }
+
+  TEST_CASE(
+      "bsp writes no depths into the list unless it is asked to, and with them a z-buffer can replay it") {
+    const auto scene = demos::make(*demos::find("cyclic"));
+    const auto plain = app::record(scene, 1, bsp, scene::Annotate::when_needed);
+    const auto annotated = app::record(scene, 1, bsp, scene::Annotate::always);
+    REQUIRE(plain);
+    REQUIRE(annotated);
+    scene::Knobs depth;
+    depth.visibility = scene::Visibility::zbuffer;
+    depth.depth = scene::DepthFormat::bits32;
+    const auto end_of = [&](const gpu::Dump& dump) {
+      gpu::Gpu gpu;
+      gpu.set_depth(scene::depth_options(depth));
+      return gpu::replay(dump, gpu).polygons_without_depth;
+    };
+    CHECK(end_of(plain->dump) > 0);
+    CHECK(end_of(annotated->dump) == 0);
   }
 }
