@@ -116,7 +116,9 @@ Picture shrunk(const Picture& picture, int factor) {
           for (std::size_t i = 0; i < 3; ++i) sum[i] += c[i] * weight(dx) * weight(dy);
         }
       }
-      const auto byte = [factor](double v) { return static_cast<std::uint8_t>(v / (factor * factor) + 0.5); };
+      const auto byte = [factor](double v) {
+        return static_cast<std::uint8_t>(std::lround(v / (factor * factor)));
+      };
       small.at(x, y) = {byte(sum[0]), byte(sum[1]), byte(sum[2])};
     }
   }

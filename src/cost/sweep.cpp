@@ -98,9 +98,9 @@ std::vector<Job> jobs_of(const std::vector<Row>& rows) {
 }
 
 template <class Get>
-double median_of(const std::vector<Stages>& samples, Get&& get) {
-  std::vector<double> values;
-  for (const auto& s : samples) values.push_back(get(s));
+double median_of(const std::vector<Stages>& samples, Get get) {
+  std::vector<double> values(samples.size());
+  std::transform(samples.begin(), samples.end(), values.begin(), get);
   return median(values);
 }
 
