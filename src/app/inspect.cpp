@@ -1,8 +1,10 @@
 // otter inspect: which pixels are wrong, why, and between whom.
 
+#include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -259,15 +261,10 @@ scene::Result<void> print_history(const inspect::Report& report, const gpu::Trac
   return {};
 }
 
-scene::Result<int> write_json(const Options& options, const std::vector<inspect::Report>& reports) {
-  const std::string json = inspect::to_json(reports);
-  if (options.json == "-") {
-    std::fputs(json.c_str(), stdout);
-  } else if (!options.json.empty()) {
-    if (auto written = display::write_file(options.json, json); !written)
-      return tl::make_unexpected(written.error());
-  }
-  return 0;
+scene::Result<void> write_json(const std::string& path, inspect::FramesJson& json) {
+  if (path != "-") return display::write_file(path, [&](std::FILE* file) { json.write(file); });
+  json.write(stdout);
+  return {};
 }
 
 scene::Result<int> run(const Options& options) {
@@ -281,34 +278,44 @@ scene::Result<int> run(const Options& options) {
 
   gpu::Trace trace;
   trace.keep_history = true;
-  std::vector<inspect::Report> reports;
-  std::uint64_t wrong = 0;
-  Progress progress("inspect", std::size_t{frames->last} - frames->first + 1);
+  inspect::Sums sums;
+  std::optional<inspect::FramesJson> json;
+  if (!options.json.empty()) json.emplace();
+  const bool prints = options.json != "-";
+  const auto wanted = std::uint64_t{frames->last} - frames->first + 1;
+  Progress progress("inspect", wanted);
   const Interrupt interrupt;
-  for (std::uint32_t n = frames->first; n <= frames->last && !interrupt.was_asked(); ++n) {
+  for (std::uint32_t n = frames->first; n <= frames->last; ++n) {
     trace.clear();
     auto watched = (*source)->frame(n, trace);
     if (!watched) return tl::make_unexpected(watched.error());
-    wrong += watched->report.wrong_pixels();
+    sums.add(watched->report);
+    if (json && !json->add(watched->report)) {
+      return scene::fail(std::string("--json: a temporary file cannot be written: ") + std::strerror(errno),
+                         scene::Exit::failed);
+    }
     if (auto done = write_pictures(options, *watched, trace); !done) return tl::make_unexpected(done.error());
-    if (options.json != "-") std::fputs(inspect::to_text(watched->report).c_str(), stdout);
-    if (*pixel && options.json != "-") {
+    if (prints) std::fputs(inspect::to_text(watched->report).c_str(), stdout);
+    if (*pixel && prints) {
       if (auto done = print_history(watched->report, trace, **pixel); !done)
         return tl::make_unexpected(done.error());
     }
-    reports.push_back(std::move(watched->report));
     progress.step();
+    if (interrupt.was_asked()) break;
   }
-  if (auto done = write_json(options, reports); !done) return done;
-  if (interrupt.was_asked()) {
-    return scene::fail("interrupted: the report holds " + std::to_string(reports.size()) + " frames of " +
-                           std::to_string(std::size_t{frames->last} - frames->first + 1),
+  if (prints && wanted > 1) std::fputs(inspect::to_text(sums).c_str(), stdout);
+  if (json) {
+    if (auto done = write_json(options.json, *json); !done) return tl::make_unexpected(done.error());
+  }
+  if (sums.frames < wanted) {
+    return scene::fail("interrupted: the report holds " + std::to_string(sums.frames) + " frames of " +
+                           std::to_string(wanted),
                        scene::Exit::interrupted);
   }
-  if (options.max >= 0 && wrong > static_cast<std::uint64_t>(options.max)) {
-    return scene::fail(
-        "--max " + std::to_string(options.max) + ": " + std::to_string(wrong) + " pixels are wrong",
-        scene::Exit::failed);
+  if (options.max >= 0 && sums.wrong_pixels > static_cast<std::uint64_t>(options.max)) {
+    return scene::fail("--max " + std::to_string(options.max) + ": " + std::to_string(sums.wrong_pixels) +
+                           " pixels are wrong",
+                       scene::Exit::failed);
   }
   return 0;
 }

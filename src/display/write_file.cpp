@@ -17,11 +17,13 @@ scene::Result<void> cannot_write(const fs::path& path, int error) {
 }
 
 // 0, or the errno of what went wrong. fclose reports what the buffer could not (a full disk).
-int write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
+int write_with(const fs::path& path, const std::function<void(std::FILE*)>& write) {
   std::FILE* file = std::fopen(path.c_str(), "wb");
   if (file == nullptr) return errno;
-  const bool wrote = std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const int write_error = wrote ? 0 : errno;
+  errno = 0;
+  write(file);
+  const bool wrote = std::ferror(file) == 0;
+  const int write_error = wrote ? 0 : (errno != 0 ? errno : EIO);
   const bool closed = std::fclose(file) == 0;
   if (!wrote) return write_error;
   return closed ? 0 : errno;
@@ -29,11 +31,11 @@ int write_bytes(const fs::path& path, std::span<const std::byte> bytes) {
 
 }  // namespace
 
-scene::Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+scene::Result<void> write_file(const fs::path& path, const std::function<void(std::FILE*)>& write) {
   std::error_code status_error;
   const auto status = fs::status(path, status_error);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    const int error = fs::is_directory(status) ? EISDIR : write_bytes(path, bytes);
+    const int error = fs::is_directory(status) ? EISDIR : write_with(path, write);
     return error == 0 ? scene::Result<void>{} : cannot_write(path, error);
   }
   std::error_code ignored;
@@ -41,11 +43,15 @@ scene::Result<void> write_file(const fs::path& path, std::span<const std::byte> 
   if (target.empty()) target = path;
   auto temporary = target;
   temporary += ".part" + std::to_string(getpid());
-  int error = write_bytes(temporary, bytes);
+  int error = write_with(temporary, write);
   if (error == 0 && std::rename(temporary.c_str(), target.c_str()) != 0) error = errno;
   if (error == 0) return {};
   fs::remove(temporary, ignored);
   return cannot_write(path, error);
+}
+
+scene::Result<void> write_file(const fs::path& path, std::span<const std::byte> bytes) {
+  return write_file(path, [bytes](std::FILE* file) { std::fwrite(bytes.data(), 1, bytes.size(), file); });
 }
 
 scene::Result<void> write_file(const fs::path& path, std::string_view text) {

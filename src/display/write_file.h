@@ -2,7 +2,9 @@
 // The one way in which this program makes a file: whole, or not at all.
 
 #include <cstddef>
+#include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -15,5 +17,8 @@ namespace display {
 /// "PATH: cannot be written: REASON"; the temporary file is gone.
 scene::Result<void> write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
 scene::Result<void> write_file(const std::filesystem::path& path, std::string_view text);
+/// The same for what is too large to be held: `write` puts it into the open file.
+scene::Result<void> write_file(const std::filesystem::path& path,
+                               const std::function<void(std::FILE*)>& write);
 
 }  // namespace display

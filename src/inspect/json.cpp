@@ -1,6 +1,6 @@
 #include "inspect/json.h"
 
-#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 
 namespace inspect {
@@ -89,33 +89,51 @@ std::string to_json(const Report& report) {
   return dump(json);
 }
 
-std::string to_json(const std::vector<Report>& reports) {
-  if (reports.size() == 1) return to_json(reports.front());
-  Json json, frames = Json::array();
-  std::uint64_t drawn = 0, wrong = 0;
-  std::array<std::uint64_t, cause_count> causes{}, raw{};
-  for (const Report& report : reports) {
-    drawn += report.pixels_drawn;
-    wrong += report.wrong_pixels();
-    for (std::size_t c = 0; c < cause_count; ++c) {
-      causes[c] += report.causes[c];
-      raw[c] += report.raw_causes[c];
-    }
-    Json frame;
-    frame["frame"] = report.frame;
-    counts(frame, report);
-    details(frame, report);
-    frames.push_back(std::move(frame));
+FramesJson::FramesJson() : spool_(std::tmpfile()) {}
+
+bool FramesJson::add(const Report& report) {
+  if (sums_.frames == 0) {
+    first_.scene = report.scene;
+    first_.frame = report.frame;
+    first_.picture = report.picture;
+    single_ = to_json(report);
   }
-  if (!reports.empty()) header(json, reports.front());
-  json["pixels_drawn"] = drawn;
-  json["wrong_pixels"] = wrong;
-  json["causes"] = by_cause(causes);
-  json["raw_causes"] = by_cause(raw);
+  sums_.add(report);
+  if (spool_ == nullptr) return sums_.frames == 1;
+  Json frame;
+  frame["frame"] = report.frame;
+  counts(frame, report);
+  details(frame, report);
+  std::string lines = dump(frame);
+  lines.pop_back();  // the last newline
+  std::string text = sums_.frames == 1 ? "\n    " : ",\n    ";
+  for (const char c : lines) c == '\n' ? text.append("\n    ") : text.append(1, c);
+  return std::fwrite(text.data(), 1, text.size(), spool_.get()) == text.size();
+}
+
+void FramesJson::write(std::FILE* to) {
+  if (sums_.frames == 1) {
+    std::fputs(single_.c_str(), to);
+    return;
+  }
+  Json json;
+  header(json, first_);
+  json["pixels_drawn"] = sums_.pixels_drawn;
+  json["wrong_pixels"] = sums_.wrong_pixels;
+  json["causes"] = by_cause(sums_.causes);
+  json["raw_causes"] = by_cause(sums_.raw_causes);
   json["pairs"] = Json::array();
   json["lint"] = Json::array();
-  json["frames"] = std::move(frames);
-  return dump(json);
+  json["frames"] = Json::array();
+  const std::string around = dump(json);
+  const auto inside = around.rfind(']');
+  std::fwrite(around.data(), 1, inside, to);
+  std::array<char, 65536> block{};
+  std::rewind(spool_.get());
+  while (const auto n = std::fread(block.data(), 1, block.size(), spool_.get()))
+    std::fwrite(block.data(), 1, n, to);
+  std::fputs("\n  ", to);
+  std::fputs(around.c_str() + inside, to);
 }
 
 }  // namespace inspect

@@ -1,8 +1,9 @@
 #pragma once
 // The report as JSON, schema otter.inspect/1.
 
+#include <cstdio>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "inspect/report.h"
 
@@ -12,7 +13,25 @@ namespace inspect {
 /// with the bucket beside them, null where there is none.
 std::string to_json(const Report& report);
 
-/// Several frames: the sums under the names of a single frame, then `frames`, one object each.
-std::string to_json(const std::vector<Report>& reports);
+/// Several frames, none of which is kept in memory: what is known of each waits in a temporary file. The sums
+/// stand under the names of a single frame, then `frames`, one object each.
+class FramesJson {
+ public:
+  FramesJson();
+
+  /// False: the temporary file could not be written; errno says why.
+  [[nodiscard]] bool add(const Report& report);
+  /// The whole object, ending in a newline; one frame as to_json() has it. Needs a frame.
+  void write(std::FILE* to);
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+  std::unique_ptr<std::FILE, Close> spool_;
+  Report first_;        // of which only the names and the size are kept
+  std::string single_;  // the first frame alone
+  Sums sums_;
+};
 
 }  // namespace inspect

@@ -105,6 +105,21 @@ std::vector<WrongPair> find_pairs(const Report& report, const gpu::Trace& trace,
 
 }  // namespace
 
+void Sums::add(const Report& report) {
+  ++frames;
+  pixels_drawn += report.pixels_drawn;
+  wrong_pixels += report.wrong_pixels();
+  for (std::size_t c = 0; c < cause_count; ++c) {
+    causes[c] += report.causes[c];
+    raw_causes[c] += report.raw_causes[c];
+  }
+  decisions += report.decisions;
+  if (report.wrong_pixels() > worst_pixels) {
+    worst_pixels = report.wrong_pixels();
+    worst_frame = report.frame;
+  }
+}
+
 Report inspect(const gpu::Trace& trace, const Options& options) {
   Report report;
   report.scene = options.scene;

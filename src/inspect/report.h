@@ -83,6 +83,17 @@ struct Report {
   }
 };
 
+/// What is kept of many frames.
+struct Sums {
+  std::uint64_t frames = 0, pixels_drawn = 0, wrong_pixels = 0;
+  std::array<std::uint64_t, cause_count> causes{}, raw_causes{};
+  DecisionCounts decisions;
+  std::uint32_t worst_frame = 0;   ///< the one with the most wrong pixels,
+  std::uint64_t worst_pixels = 0;  ///< and how many
+
+  void add(const Report& report);
+};
+
 /// Judges every pixel of a trace that kept its history. Time grows linearly with the fragments.
 /// A trace without depth gives no wrong pixel: polygons_judged says that nothing was looked at.
 Report inspect(const gpu::Trace& trace, const Options& options);
@@ -92,5 +103,7 @@ std::string id(std::uint32_t frame, const DrawId& draw);
 
 /// The table `otter inspect` prints.
 std::string to_text(const Report& report);
+/// The line or two below the tables of several frames.
+std::string to_text(const Sums& sums);
 
 }  // namespace inspect

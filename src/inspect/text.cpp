@@ -27,12 +27,20 @@ double percent(std::uint64_t part, std::uint64_t whole) {
 
 unsigned long long count(std::uint64_t n) { return n; }
 
-void causes(std::string& out, const Report& report) {
+// Of one frame, or of many.
+template <class Counts>
+void causes(std::string& out, const Counts& counts) {
   for (std::size_t c = 0; c < cause_count; ++c) {
-    if (report.raw_causes[c] == 0) continue;
-    print(out, "    %-16s %9llu   (matches on %llu)\n", cause_names[c].data(), count(report.causes[c]),
-          count(report.raw_causes[c]));
+    if (counts.raw_causes[c] == 0) continue;
+    print(out, "    %-16s %9llu   (matches on %llu)\n", cause_names[c].data(), count(counts.causes[c]),
+          count(counts.raw_causes[c]));
   }
+}
+
+void comparisons(std::string& out, const DecisionCounts& decisions) {
+  print(out, "  comparisons %llu, of which exact %llu (%.3f %%)\n",
+        count(decisions.filtered + decisions.exact), count(decisions.exact),
+        percent(decisions.exact, decisions.filtered + decisions.exact));
 }
 
 void pairs(std::string& out, const Report& report) {
@@ -85,13 +93,23 @@ std::string to_text(const Report& report) {
   causes(out, report);
   pairs(out, report);
   buckets(out, report);
-  print(out, "  comparisons %llu, of which exact %llu (%.3f %%)\n",
-        count(report.decisions.filtered + report.decisions.exact), count(report.decisions.exact),
-        percent(report.decisions.exact, report.decisions.filtered + report.decisions.exact));
+  comparisons(out, report.decisions);
   for (const LintItem& item : report.lint) {
     print(out, "  lint %s%s%s: %s\n", item.kind.c_str(), item.at.empty() ? "" : " at ", item.at.c_str(),
           item.text.c_str());
   }
+  return out;
+}
+
+std::string to_text(const Sums& sums) {
+  std::string out;
+  print(out, "%llu frames\n  wrong pixels %llu (%.2f %% of %llu drawn)", count(sums.frames),
+        count(sums.wrong_pixels), percent(sums.wrong_pixels, sums.pixels_drawn), count(sums.pixels_drawn));
+  if (sums.worst_pixels != 0)
+    print(out, ", most in frame %u: %llu", sums.worst_frame, count(sums.worst_pixels));
+  out += "\n";
+  causes(out, sums);
+  comparisons(out, sums.decisions);
   return out;
 }
 

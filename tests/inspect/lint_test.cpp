@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <nlohmann/json.hpp>
 
 #include "inspect/history.h"
 #include "inspect/image.h"
@@ -128,6 +129,38 @@ TEST_SUITE("inspect") {
     for (const auto name : inspect::cause_names)
       CHECK(json.find(std::string(name).insert(0, 1, '"').append("\": ")) != std::string::npos);
     CHECK(json.find("\"BucketTie\": 4") != std::string::npos);
+  }
+
+  TEST_CASE(
+      "the JSON of several frames has the sums first, then each frame; that of one frame is the frame's") {
+    tests::Stage one, two;
+    one.quad(0, 0, 4, 4, 100, {.bucket = 3});
+    one.quad(2, 2, 6, 6, 200, {.bucket = 3});
+    two.quad(0, 0, 4, 4, 100, {.bucket = 3});
+    two.quad(0, 0, 2, 2, 200, {.bucket = 9});
+    const auto text = [](inspect::FramesJson& json) {
+      std::FILE* file = std::tmpfile();
+      REQUIRE(file != nullptr);
+      json.write(file);
+      std::string read(static_cast<std::size_t>(std::ftell(file)), ' ');
+      std::rewind(file);
+      REQUIRE(std::fread(read.data(), 1, read.size(), file) == read.size());
+      std::fclose(file);
+      return read;
+    };
+    inspect::FramesJson json;
+    CHECK(json.add(one.report()));
+    CHECK(text(json) == inspect::to_json(one.report()));
+    CHECK(json.add(two.report()));
+    const auto both = nlohmann::json::parse(text(json));
+    CHECK(both["schema"] == "otter.inspect/1");
+    CHECK(both["pixels_drawn"] == 28 + 16);
+    CHECK(both["wrong_pixels"] == 4 + 4);
+    CHECK(both["causes"]["BucketTie"] == 4);
+    CHECK(both["causes"]["KeyInversion"] == 4);
+    REQUIRE(both["frames"].size() == 2);
+    CHECK(both["frames"][0]["wrong_pixels"] == 4);
+    CHECK(both["frames"][1]["pairs"][0]["cause"] == "KeyInversion");
   }
 
   TEST_CASE("a pixel tells who drew it, what it shows and what it should show") {
