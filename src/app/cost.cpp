@@ -121,7 +121,10 @@ scene::Result<int> run_cost(Options& o) {
   }
   const Interrupt interrupt;
   sweep.stop = [&] { return interrupt.was_asked(); };
-  cost::Report report{command_line(o), cost::machine_name(), gte::batch_target(), {}};
+  cost::Report report{.command = command_line(o),
+                      .machine = cost::machine_name(),
+                      .target = gte::batch_target(),
+                      .scenes = {}};
   std::optional<scene::Error> failed;  // what was measured before is reported all the same
   for (auto& scene : scenes) {
     if (interrupt.was_asked()) break;

@@ -55,7 +55,7 @@ std::vector<Axis> make_axes() {
         zbuffer("z 32", "32", "hyperbolic", false),
         zbuffer("z float", "float", "hyperbolic", false)},
        3,
-       false},
+       true},
       {"transform",
        "Transforming vertices",
        Measure::geometric,

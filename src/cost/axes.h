@@ -43,7 +43,8 @@ struct Axis {
   Measure measure;                ///< the error the axis is about
   std::vector<Setting> settings;  ///< cheap to accurate
   std::size_t console = 0;        ///< index of the console's setting
-  bool without_samples = false;   ///< swept down without super-sampling: the axis is itself a way of sampling
+  /// Swept down without super-sampling: the axis is itself a way of sampling, or decided sample by sample.
+  bool without_samples = false;
 };
 
 /// In the order of the report.

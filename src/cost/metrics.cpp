@@ -125,17 +125,43 @@ Picture shrunk(const Picture& picture, int factor) {
   return small;
 }
 
-Picture difference(const Picture& a, const Picture& b) {
-  Picture result(a.width, a.height);
-  const auto far = [](std::uint8_t x, std::uint8_t y) {
-    return static_cast<std::uint8_t>(std::min(255, 4 * std::abs(x - y)));
+Rgba heat(int difference) {
+  struct Stop {
+    double at;
+    std::array<double, 3> rgb;
   };
+  static constexpr std::array<Stop, 5> stops{{{0, {0, 0, 0}},
+                                              {0.2, {70, 15, 110}},
+                                              {0.45, {200, 50, 70}},
+                                              {0.75, {250, 180, 30}},
+                                              {1, {255, 255, 240}}}};
+  const double t = std::sqrt(std::clamp(difference, 0, 255) / 255.0);
+  std::size_t i = 1;
+  while (i + 1 < stops.size() && t > stops[i].at) ++i;
+  const auto& [low, from] = stops[i - 1];
+  const auto& [high, to] = stops[i];
+  const auto channel = [&, share = (t - low) / (high - low)](std::size_t c) {
+    return static_cast<std::uint8_t>(from[c] + (to[c] - from[c]) * share + 0.5);
+  };
+  return {channel(0), channel(1), channel(2)};
+}
+
+Picture heat_map(const Picture& a, const Picture& b) {
+  Picture result(a.width, a.height);
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
     const Rgba p = a.pixels[i];
     const Rgba q = b.pixels[i];
-    result.pixels[i] = {far(p.r, q.r), far(p.g, q.g), far(p.b, q.b)};
+    result.pixels[i] = heat(std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)}));
   }
   return result;
+}
+
+Picture cropped(const Picture& a, int x, int y, int width, int height) {
+  Picture part(width, height);
+  for (int j = 0; j < height; ++j) {
+    for (int i = 0; i < width; ++i) part.at(i, j) = a.at(x + i, y + j);
+  }
+  return part;
 }
 
 double percentile(std::vector<double> values, double share) {

@@ -20,8 +20,13 @@ double ssim(const display::Picture& a, const display::Picture& b);
 /// `picture`, `factor` (1, 2, 4, 8) times as wide and high as wanted: each pixel the mean of the square of
 /// side 1 round its sample point, which is the first of the factor x factor pixels.
 display::Picture shrunk(const display::Picture& picture, int factor);
-/// |a - b| times 4, limited to 255.
-display::Picture difference(const display::Picture& a, const display::Picture& b);
+/// Where and how much two pictures differ: the colour of the largest difference of a channel, 0..255.
+display::Picture heat_map(const display::Picture& a, const display::Picture& b);
+/// Black for no difference, then purple, red, yellow, white for 255; the scale is a square root, so that
+/// small ones show.
+display::Rgba heat(int difference);
+/// The part of `a` at (x, y).
+display::Picture cropped(const display::Picture& a, int x, int y, int width, int height);
 
 /// The middle value (mean of the two middle ones); 0 of nothing.
 double median(std::vector<double> values);

@@ -12,6 +12,8 @@
 #include <sstream>
 
 #include "cost/report.h"
+#include "cost/report_plots.h"
+#include "cost/text.h"
 
 namespace cost {
 namespace {
@@ -38,6 +40,38 @@ class TemporaryFile {
   std::string path_;
 };
 
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// gnuplot's colours as variables of the page's style, and names of its own for what it defines: a page holds
+/// many plots.
+void adapt(std::string& svg) {
+  struct Named {
+    std::string_view name, colour;
+  };
+  for (const auto& [name, colour] :
+       {Named{"ink", theme::ink}, Named{"soft", theme::soft}, Named{"line", theme::line},
+        Named{"up", theme::up}, Named{"down", theme::down}, Named{"front", theme::front}}) {
+    const auto value = std::stoul(std::string(colour.substr(1)), nullptr, 16);
+    const auto [r, g, b] = std::array{value >> 16, value >> 8 & 255, value & 255};
+    for (const char* format : {"rgb(%lu,%lu,%lu)", "rgb(%3lu, %3lu, %3lu)"}) {
+      std::array<char, 40> text{};
+      std::snprintf(text.data(), text.size(), format, r, g, b);
+      replace_all(svg, text.data(), joined({"var(--", name, ")"}));
+    }
+  }
+  static int plots = 0;
+  const std::string own = "plot" + std::to_string(++plots);
+  for (const char* prefix : {"id='gp", "id=\"gp", "#gp"}) {
+    std::string renamed = prefix;
+    renamed.replace(renamed.size() - 2, 2, own);
+    replace_all(svg, prefix, renamed);
+  }
+  replace_all(svg, "<title>Gnuplot</title>", "");
+}
+
 }  // namespace
 
 std::string plotted(const std::string& script) {
@@ -52,7 +86,10 @@ std::string plotted(const std::string& script) {
   text << file.rdbuf();
   std::string svg = text.str();
   const auto begin = svg.find("<svg");
-  return begin == std::string::npos ? std::string() : svg.substr(begin);
+  if (begin == std::string::npos) return {};
+  svg.erase(0, begin);
+  adapt(svg);
+  return svg;
 }
 
 std::string png_base64(const display::Picture& picture) {

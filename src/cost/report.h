@@ -8,15 +8,18 @@
 
 namespace cost {
 
+/// Processor name and number of cores, as the operating system tells.
+std::string machine_name();
+/// What built this program: "GCC 12.2.0".
+std::string compiler_name();
+
 struct Report {
   std::string command;  ///< as typed
   std::string machine;  ///< processor and cores
   std::string target;   ///< dispatch target of the vector code
+  std::string compiler = compiler_name();
   std::vector<SceneResult> scenes;
 };
-
-/// Processor name and number of cores, as the operating system tells.
-std::string machine_name();
 
 /// {"schema":"otter.cost/1","scene","frame","width","height","settings":[...], ...}. Of several scenes the
 /// first names the report, and every setting bears its own.

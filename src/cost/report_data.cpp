@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "cost/finding.h"
 #include "cost/report.h"
 #include "cost/text.h"
 
@@ -91,6 +92,14 @@ std::string machine_name() {
   return name + ", " + std::to_string(std::max(1U, std::thread::hardware_concurrency())) + " cores";
 }
 
+std::string compiler_name() {
+#ifdef __clang__
+  return "Clang " __clang_version__;
+#else
+  return "GCC " __VERSION__;
+#endif
+}
+
 std::string to_json(const Report& report) {
   Json settings = Json::array();
   Json scenes = Json::array();
@@ -116,6 +125,7 @@ std::string to_json(const Report& report) {
   }
   json["machine"] = report.machine;
   json["target"] = report.target;
+  json["compiler"] = report.compiler;
   json["command"] = report.command;
   json["scenes"] = scenes;
   json["settings"] = settings;
@@ -174,13 +184,16 @@ std::string to_text(const Report& report) {
       }
       text += "  " + sentence(scene, axis) + "\n";
     }
-    bool first = true;
+    std::vector<const Row*> front;
     for (const auto& row : scene.rows) {
-      if (!row.on_front) continue;
-      if (first) text += "\n Pareto front: nothing measured is both faster and nearer to the reference\n";
-      first = false;
-      text += "  " + padded(number(row.ms), 9) + " ms" + padded(number(row.errors.psnr), 8) + " dB   " +
-              row.setting + "\n";
+      if (row.on_front && row.direction == Direction::cross) front.push_back(&row);
+    }
+    std::ranges::sort(front, {}, &Row::ms);
+    if (!front.empty())
+      text += "\n Pareto front: nothing measured is both faster and nearer to the reference\n";
+    for (const Row* row : front) {
+      text += "  " + padded(number(row->ms), 9) + " ms" + padded(number(row->errors.psnr), 8) + " dB   " +
+              row->setting + "\n";
     }
     for (const auto& line : scene.skipped) text += " skipped: " + line + "\n";
   }

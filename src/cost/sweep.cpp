@@ -127,14 +127,12 @@ const Row* SceneResult::find(const Axis& axis, Direction direction, std::string_
 }
 
 void mark_front(std::vector<Row>& rows) {
-  const auto competes = [](const Row& row) { return row.direction == Direction::cross; };
   for (auto& row : rows) {
-    row.on_front = competes(row) && std::ranges::none_of(rows, [&](const Row& other) {
-                     const bool no_worse =
-                         other.ms <= row.ms && other.errors.colour_rms <= row.errors.colour_rms;
-                     const bool better = other.ms < row.ms || other.errors.colour_rms < row.errors.colour_rms;
-                     return competes(other) && no_worse && better;
-                   });
+    row.on_front = std::ranges::none_of(rows, [&](const Row& other) {
+      const bool competes = other.axis == row.axis && other.direction == row.direction;
+      const bool no_worse = other.ms <= row.ms && other.error() <= row.error();
+      return competes && no_worse && (other.ms < row.ms || other.error() < row.error());
+    });
   }
 }
 
@@ -179,7 +177,7 @@ scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) 
     for (const auto r : job.rows) {
       rows[r].errors = *errors;
       rows[r].picture = picture;
-      rows[r].difference = difference(picture, result.reference);
+      rows[r].difference = heat_map(picture, result.reference);
     }
   }
   std::erase_if(jobs, [&](const Job& job) { return rows[job.rows.front()].picture.width == 0; });

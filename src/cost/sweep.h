@@ -40,11 +40,13 @@ struct Row {
   double spread = 0;  ///< distance between the quartiles of the whole frame
   std::uint64_t bytes = 0;
   Errors errors;
-  display::Picture picture,
-      difference;           ///< at the console's resolution; difference from the reference, times 4
-  bool is_console = false;  ///< the console's setting of its axis
-  bool on_front = false;    ///< cross: no other is both faster and nearer to the reference
+  display::Picture picture;     ///< at the console's resolution
+  display::Picture difference;  ///< its distance from the reference, as a heat map
+  bool is_console = false;      ///< the console's setting of its axis
+  bool on_front = false;        ///< no other of its sweep is both faster and nearer to the truth
 
+  /// The error it competes by: its axis' own; of a combination, the distance from the reference picture.
+  [[nodiscard]] double error() const { return errors.of(axis != nullptr ? axis->measure : Measure::colour); }
   [[nodiscard]] std::string_view axis_name() const { return axis != nullptr ? axis->name : "cross"; }
 };
 
@@ -63,10 +65,7 @@ struct SceneResult {
 /// Error: the reference itself cannot be drawn.
 scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options);
 
-/// Marks the rows that no other row beats in both time and colour error.
+/// Marks the rows that no other row of the same axis and direction beats in both time and error.
 void mark_front(std::vector<Row>& rows);
-
-/// What was found for one axis, in one sentence made from its numbers. Empty if the axis was not measured.
-std::string sentence(const SceneResult& result, const Axis& axis);
 
 }  // namespace cost

@@ -21,6 +21,12 @@ std::string number(double value) {
   return text.data();
 }
 
+std::string short_number(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%g", value);
+  return text.data();
+}
+
 std::string joined(std::initializer_list<std::string_view> pieces) {
   std::string text;
   for (const auto piece : pieces) text += piece;

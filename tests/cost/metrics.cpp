@@ -76,4 +76,42 @@ TEST_SUITE("cost") {
     for (const auto& r : rows) front.push_back(r.on_front);
     CHECK(front == std::vector<bool>{true, true, false, true, false});
   }
+
+  TEST_CASE("a sweep has a front of its own, by the error of its axis") {
+    const auto row = [](const cost::Axis* axis, cost::Direction direction, double ms, double pixels) {
+      cost::Row r;
+      r.axis = axis;
+      r.direction = direction;
+      r.ms = ms;
+      r.errors.geometric_px.mean = pixels;
+      r.errors.colour_rms = 100 - pixels;  // of another axis
+      return r;
+    };
+    const auto* position = cost::find_axis("position");
+    std::vector<cost::Row> rows{
+        row(position, cost::Direction::up, 1, 9), row(position, cost::Direction::up, 2, 9),
+        row(position, cost::Direction::up, 3, 1), row(position, cost::Direction::down, 9, 9)};
+    cost::mark_front(rows);
+    CHECK(rows[0].on_front);
+    CHECK_FALSE(rows[1].on_front);
+    CHECK(rows[2].on_front);
+    CHECK(rows[3].on_front);
+  }
+
+  TEST_CASE("a heat map is black where pictures agree, white where a channel is as far as can be") {
+    display::Picture a(3, 1);
+    display::Picture b = a;
+    b.at(1, 0) = {0, 255, 0};
+    b.at(2, 0) = {2, 0, 1};
+    const auto map = cost::heat_map(a, b);
+    CHECK(map.at(0, 0) == display::Rgba{0, 0, 0});
+    CHECK(map.at(1, 0) == cost::heat(255));
+    CHECK(map.at(2, 0) == cost::heat(2));
+    const auto brightness = [](int d) {
+      const auto c = cost::heat(d);
+      return 299 * c.r + 587 * c.g + 114 * c.b;
+    };
+    for (int d = 1; d < 256; ++d) CHECK(brightness(d) > brightness(d - 1));
+    CHECK(cost::cropped(b, 1, 0, 2, 1).at(1, 0) == b.at(2, 0));
+  }
 }

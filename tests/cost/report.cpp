@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cost/finding.h"
 #include "scenes.h"
 
 using namespace cost_test;
@@ -54,8 +55,10 @@ TEST_SUITE("cost") {
   }
 
   TEST_CASE("JSON, CSV and HTML hold every setting, and HTML needs no other file") {
-    cost::Report report{
-        "otter cost runway", "a machine", "a target", {quick_sweep({cost::find_axis("colour")})}};
+    cost::Report report{.command = "otter cost runway",
+                        .machine = "a machine",
+                        .target = "a target",
+                        .scenes = {quick_sweep({cost::find_axis("colour")})}};
     const auto& rows = report.scenes[0].rows;
     const auto json = nlohmann::json::parse(cost::to_json(report));
     CHECK(json["schema"] == "otter.cost/1");
@@ -71,6 +74,9 @@ TEST_SUITE("cost") {
     CHECK(html.find("http://") == html.find("http://www.w3.org"));  // names of SVG, nothing to load
     CHECK(html.find("src=\"data:image/png;base64,") != std::string::npos);
     CHECK(html.find("Keeping colours") != std::string::npos);
+    // Plots take their colours from the page, and no two of them name their parts alike.
+    CHECK(html.find("var(--up)") != std::string::npos);
+    CHECK(html.find("id='gp") == std::string::npos);
     CHECK(cost::to_text(report).find("15-dither") != std::string::npos);
   }
 
