@@ -90,6 +90,11 @@ ImGuiLayer::~ImGuiLayer() {
   ImGui::DestroyContext();
 }
 
+void ImGuiLayer::renew_font() {
+  SDL_DestroyTexture(font_);
+  font_ = make_font_texture(renderer_);
+}
+
 void ImGuiLayer::take(const SDL_Event& event) { ImGui_ImplSDL2_ProcessEvent(&event); }
 
 void ImGuiLayer::begin(float scale) {

@@ -14,6 +14,8 @@ class ImGuiLayer {
   ImGuiLayer(const ImGuiLayer&) = delete;
   ImGuiLayer& operator=(const ImGuiLayer&) = delete;
 
+  /// Makes the texture of the letters anew: the one before is lost.
+  void renew_font();
   /// Shows the event to ImGui.
   void take(const SDL_Event& event);
   /// Begins a frame of widgets; `scale` enlarges letters and is a whole number, so that they stay crisp.

@@ -55,6 +55,7 @@ class Window {
  private:
   scene::Result<void> open();
   void take_events();
+  void renew_textures();
   void update();
   void inspect();
   void measure();
@@ -123,8 +124,20 @@ void Window::take_events() {
         is_minimised_ = false;
       }
     }
+    if (event.type == SDL_RENDER_DEVICE_RESET || event.type == SDL_RENDER_TARGETS_RESET) renew_textures();
     input_.take(event, seconds_since(begin_), picture_, state_);
   }
+}
+
+// The graphics driver has lost what it was given; a scene at rest would not bring it again.
+void Window::renew_textures() {
+  gui_->renew_font();
+  left_ = {};
+  right_ = {};
+  vram_ = {};
+  left_.show(renderer_.get(), show_.left());
+  if (state_.compares()) right_.show(renderer_.get(), show_.right());
+  inspected_ = {Map::none, -1};
 }
 
 // Lets time pass, moves the camera, draws the scene if anything has changed.
