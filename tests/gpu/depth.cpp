@@ -201,6 +201,19 @@ TEST_SUITE("gpu") {
     CHECK(end.first_without_depth == 1);
   }
 
+  TEST_CASE("A polygon that brings depth for some of its vertices only is one without") {
+    for (unsigned brought = 1; brought < 15; ++brought) {  // bit v: E8h+v comes; 15 would be all
+      CAPTURE(brought);
+      Bench bench(DepthOptions{});
+      for (std::uint32_t v = 0; v < 4; ++v) {
+        if ((brought >> v & 1) != 0) bench.gpu->gp0((0xe8 + v) << 24 | 100U << 12);
+      }
+      bench.gpu->gp0(Words{0x28000000 | green, at(0, 0), at(8, 0), at(0, 8), at(8, 8)});
+      CHECK(bench.gpu->end_frame().polygons_without_depth == 1);
+      CHECK(bench.gpu->depth_plane()->is_empty(4, 4));
+    }
+  }
+
   TEST_CASE("A default depth serves polygons that bring none") {
     Bench bench(DepthOptions{});
     bench.square(red, 100, 100);

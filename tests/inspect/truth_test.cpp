@@ -186,4 +186,17 @@ TEST_SUITE("inspect") {
     stage.quad(0, 512, 8, 520, 150);  // equal at row 516
     CHECK(stage.report().wrong_pixels() == 32);
   }
+
+  TEST_CASE("a triangle of a thousand columns is judged at its own sample points from end to end") {
+    // z grows to the right from 100 at column 0 to 300 at column 1000: 1/z is 1/150 at column 500.
+    tests::Stage stage;
+    stage.gpu().gp0(0xe3000000);
+    stage.gpu().gp0(0xe4000000 | 7 << 10 | 1023);
+    stage.quad(0, 0, 1000, 8, 100, 300);
+    stage.quad(0, 0, 1000, 8, 150);
+    const auto report = stage.report();
+    CHECK(report.wrong_pixels() == 4000);
+    const auto is_left = [](const auto& wrong) { return wrong.pixel % 1024 < 500; };
+    CHECK(std::all_of(report.wrong.begin(), report.wrong.end(), is_left));
+  }
 }

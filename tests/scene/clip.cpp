@@ -160,6 +160,28 @@ TEST_SUITE("scene") {
     CHECK(out.vertex[0].position == near.position);
   }
 
+  TEST_CASE("a vertex that the near plane cuts lies on it to the last bit, whatever the edge's slope") {
+    // Else the next stage would find it a rounding nearer or farther than its neighbour's.
+    std::mt19937 random(7);
+    const auto real = [&](double low, double high) {
+      return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+    };
+    Projection p = projection();
+    p.near_z = 146;
+    const Clipper clipper(p, false);
+    for (int i = 0; i < 2000; ++i) {
+      ClipPolygon in = polygon({vertex(real(-40, 40), real(-40, 40), real(20, 140)),
+                                vertex(real(-40, 40), real(-40, 40), real(150, 900)),
+                                vertex(real(-40, 40), real(-40, 40), real(150, 900))});
+      ClipPolygon out;
+      clipper.clip(in, out);
+      REQUIRE(out.count == 4);
+      int on_plane = 0;
+      for (std::size_t v = 0; v < out.count; ++v) on_plane += out.vertex[v].position.z == 146;
+      CHECK(on_plane == 2);
+    }
+  }
+
   TEST_CASE("clipping for the accurate transforms does not round") {
     ClipPolygon in = polygon({vertex(0, 0, 46), vertex(100, 0, 346), vertex(-100, 0, 346)});
     ClipPolygon out;
