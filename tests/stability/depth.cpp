@@ -170,6 +170,113 @@ TEST_SUITE("stability") {
     }
   }
 
+  TEST_CASE(
+      "A plane whose corners are snapped to pixels has depths within gradient x snap, however it is cut") {
+    Measure apart{
+        "6. Depth",
+        "sloped rectangles, corners projected to fractions of a pixel and snapped to whole ones, cut "
+        "along either diagonal, 16 and 24 bits",
+        "depths that depend on the mesh by more than the snapping explains",
+        "gradient x 1 pixel on each axis, 1 step, and what rounding z to 20.12 moves",
+        "of the bound",
+        1};
+    Random random(62);
+    for (int i = 0; i < 80; ++i) {
+      const DepthOptions options{.format = i % 2 == 0 ? DepthFormat::bits16 : DepthFormat::bits24};
+      // 1/z, affine on the screen; the depths lie between 200 and 8,000.
+      const double a = 1.0 / between(random, 400, 4000), dx = a * between(random, -300, 300) / 600'000.0,
+                   dy = a * between(random, -300, 300) / 500'000.0;
+      // Stored depth per unit of 1/z: d = far / (far - near) (1 - near / z).
+      const double per_unit = options.far_z * options.near_z / (options.far_z - options.near_z) *
+                              gpu::depth_scale(options.format);
+      double rounding = 0;
+      const auto corner = [&](int x, int y) {
+        const double at_x = x + between(random, -127, 127) / 256.0,
+                     at_y = y + between(random, -127, 127) / 256.0;
+        const double nearness = a + dx * at_x + dy * at_y;
+        rounding = std::max(rounding, per_unit * nearness * nearness / 8192);
+        return Corner{x, y, scene::round_saturated<std::uint32_t>(4096 / nearness)};
+      };
+      const int width = between(random, 8, 300), height = between(random, 8, 230);
+      const Corner p = corner(0, 0), q = corner(width, 0), r = corner(0, height), s = corner(width, height);
+      const auto one = with_depth(options), two = with_depth(options);
+      draw(*one, {p, q, r});
+      draw(*one, {q, s, r});
+      draw(*two, {p, q, s});
+      draw(*two, {p, s, r});
+      double worst = 0;
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          worst = std::max(worst, std::abs(steps(one->depth_plane()->stored(x, y)) -
+                                           steps(two->depth_plane()->stored(x, y))));
+        }
+      }
+      const double bound = per_unit * (std::abs(dx) + std::abs(dy)) + 1 + 2 * rounding;
+      apart.see(worst / bound, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
+    }
+  }
+
+  TEST_CASE("Depths of zero, at near, at far and as large as a word can be stay between their corners'") {
+    Measure outside{"6. Depth",
+                    "triangles with every combination of the depths 0, 2^-12, just below near, near, 1,000, "
+                    "far, just beyond far and 2^20 - 2^-12, every format; the same with fractions, which "
+                    "carry some samples out of their triangle",
+                    "a division by zero, a conversion that overflows, depths that wrap",
+                    "within 1 step (float: 2^-20) of the range of the corners' stored depths; with "
+                    "fractions, a number that the format has",
+                    "pixels",
+                    0};
+    const auto units = [](double z) { return static_cast<std::uint32_t>(z * 4096); };
+    const std::array<std::uint32_t, 8> depths{
+        0, 1, units(16) - 1, units(16), units(1000), units(65535), units(65535) + 1, 0xffffffff};
+    for (const auto& options : formats()) {
+      const auto gpu = with_depth(options);
+      unsigned cell = 0;  // a place of its own for each triangle: to clear all of VRAM takes longer
+      const auto value = [&](std::uint32_t stored) {
+        return options.format == DepthFormat::float32 ? static_cast<double>(std::bit_cast<float>(stored))
+                                                      : steps(stored);
+      };
+      const double slack = options.format == DepthFormat::float32 ? 1.0 / (1 << 20) : 1;
+      for (unsigned code = 0; code < 8 * 8 * 8; ++code) {
+        const std::array<std::uint32_t, 3> z{depths[code % 8], depths[code / 8 % 8], depths[code / 64]};
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        for (const auto corner : z) {
+          const double at = value(gpu::stored_depth(options, corner / 4096.0));
+          low = std::min(low, at);
+          high = std::max(high, at);
+        }
+        for (const bool fractions : {false, true}) {
+          const int left = static_cast<int>(cell % 21) * 48, top = static_cast<int>(cell / 21) * 32;
+          if (cell++ == 0) gpu->begin_frame();
+          if (cell == 21 * 16) cell = 0;
+          ot::DepthAnnotation annotation;
+          annotation.z = {z[0], z[1], z[2]};
+          annotation.has_fractions = fractions;
+          if (fractions) annotation.fx = annotation.fy = {0, 255, 3, 0};
+          send(*gpu, annotation);
+          ot::Polygon p;
+          const auto at_cell = [&](int x, int y) {
+            return ot::Xy{static_cast<std::int16_t>(left + x), static_cast<std::int16_t>(top + y)};
+          };
+          p.xy = {at_cell(2, 1), at_cell(40, 3), at_cell(5, 30)};
+          send(*gpu, p);
+          int bad = 0;
+          std::uint64_t pixels = 0;
+          for (int y = top; y < top + 32; ++y) {
+            for (int x = left; x < left + 48; ++x) {
+              if (gpu->depth_plane()->is_empty(x, y)) continue;
+              ++pixels;
+              const double at = value(gpu->depth_plane()->stored(x, y));
+              bad += fractions ? !(at >= 0 && at <= gpu::depth_scale(options.format))
+                               : !(at >= low - slack && at <= high + slack);
+            }
+          }
+          outside.see(bad, pixels);
+        }
+      }
+    }
+  }
+
   TEST_CASE("A decal on the surface's own vertices never flickers over a camera path") {
     Measure own{"6. Depth",
                 "decal with the surface's vertices, lequal, 1,000 camera positions, 16 bits",
