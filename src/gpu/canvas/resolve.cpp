@@ -84,7 +84,7 @@ std::vector<Tap> filter_taps(const Options& options, Reconstruction filter) {
   std::uint32_t given = 0;
   for (auto& [tap, weight] : taps) {
     running += weight;
-    const auto until = static_cast<std::uint32_t>(running / total * one + 0.5);
+    const auto until = static_cast<std::uint32_t>(std::lround(running / total * one));
     tap.weight = until - given;
     given = until;
     if (tap.weight != 0) result.push_back(tap);

@@ -71,6 +71,7 @@ std::vector<Point> rotated_grid(int n) {
     }
   }
   std::vector<Point> points;
+  points.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) points.push_back({cell(i, n), cell(best[static_cast<std::size_t>(i)], n)});
   return points;
 }
