@@ -44,6 +44,29 @@ std::uint32_t depth_of_key(const DepthOptions& options, std::uint32_t key) {
   return options.reversed ? largest - distance : distance;
 }
 
+DepthConstants::DepthConstants(const DepthOptions& o)
+    : factor(o.reversed ? -o.near_z : o.far_z),
+      zero(o.reversed ? o.far_z : o.near_z),
+      range(o.far_z - o.near_z),
+      scale(depth_scale(o.format)),
+      equal_wins(o.test == DepthTest::lequal),
+      is_linear(o.mapping == DepthMapping::linear),
+      is_float(o.format == DepthFormat::float32),
+      is_reversed(o.reversed),
+      largest(largest_code(o.format)) {
+  if (!is_linear && !is_float) {
+    constexpr double end = 4294967296.0;
+    if (o.near_z * 4096 < end) nearest = static_cast<std::uint32_t>(std::ceil(o.near_z * 4096));
+    farthest = static_cast<std::uint32_t>(std::min(std::floor(o.far_z * 4096), end - 1));
+  }
+  low = is_linear ? 1 / o.far_z : 0;
+  high = is_linear ? 1 / o.near_z : scale;
+  linear_scale = is_reversed ? -scale / range : scale / range;
+  linear_offset = is_reversed ? o.far_z / range * scale : -o.near_z / range * scale;
+  flip = is_reversed ? ~std::uint32_t{0} : 0;
+  add = is_reversed ? largest + 1 : 0;
+}
+
 std::uint32_t DepthPlane::stored(int x, int y) const { return depth_of_key(options_, keys_[offset(x, y)]); }
 
 void DepthPlane::clear() { std::fill(keys_.begin(), keys_.end(), empty); }

@@ -35,6 +35,22 @@ double depth_scale(DepthFormat format);
 /// Example: near 10, far 1000, bits32, hyperbolic: 20 -> 2169175402.
 std::uint32_t stored_depth(const DepthOptions& options, double z);
 
+/// What the options come to for every triangle, computed once.
+struct DepthConstants {
+  explicit DepthConstants(const DepthOptions& options);
+
+  // The affine quantity of hyperbolic depth: factor * (z - zero) / (z * range) * scale.
+  double factor, zero, range, scale;
+  /// Vertices whose depth is stepped in fixed point: 20.12, both inclusive; none where nearest > farthest.
+  std::uint32_t nearest = 1, farthest = 0;
+  double low, high;                    ///< the affine quantity between near and far
+  double linear_scale, linear_offset;  ///< linear: depth = 1 / quantity * scale + offset
+  std::uint32_t flip, add;             ///< key = (stored ^ flip) + add
+  bool equal_wins;                     ///< a fragment as near as what is there wins
+  bool is_linear, is_float, is_reversed;
+  std::uint32_t largest;  ///< largest_code()
+};
+
 /// One key per VRAM pixel. A key orders as "nearer is smaller" for every format, reversed or not, so one
 /// unsigned comparison serves all; `empty` loses to every fragment, however far.
 ///
@@ -52,10 +68,11 @@ class DepthPlane {
   }
 
   explicit DepthPlane(const DepthOptions& options)
-      : options_(options), keys_(stride * Vram::height + Vram::padding, empty) {}
+      : options_(options), constants_(options), keys_(stride * Vram::height + Vram::padding, empty) {}
 
   void clear();
   [[nodiscard]] const DepthOptions& options() const { return options_; }
+  [[nodiscard]] const DepthConstants& constants() const { return constants_; }
   [[nodiscard]] std::uint32_t* keys() { return keys_.data(); }
   [[nodiscard]] bool is_empty(int x, int y) const { return keys_[offset(x, y)] == empty; }
 
@@ -66,6 +83,7 @@ class DepthPlane {
 
  private:
   DepthOptions options_;
+  DepthConstants constants_;
   std::vector<std::uint32_t> keys_;
 };
 

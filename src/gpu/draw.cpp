@@ -227,20 +227,30 @@ const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* e
   return at + (pixels + 1) / 2;
 }
 
-/// Hands the annotation over to the polygon that follows it.
+/// Hands the annotation over to the polygon that follows it. What did not come is 0.
 void Gpu::take_depth() {
   Primitive& p = current_;
   p.has_depth = p.has_fractions = false;
-  if (annotation_.is_set) {
-    const unsigned all = (1U << p.vertex_count) - 1;
-    p.has_depth = (annotation_.depths & all) == all;
-    p.has_fractions = annotation_.has_fractions;
+  if (const std::uint32_t seen = annotation_.seen; seen != 0) {
+    namespace annotation = gp0::annotation;
+    constexpr std::uint32_t low = annotation::depth_low - annotation::depth_high,
+                            fraction = annotation::fraction - annotation::depth_high;
+    const auto& words = annotation_.words;
+    const auto word = [&](std::size_t n) { return (seen >> n & 1) != 0 ? words[n] : 0; };
+    const std::uint32_t all = (1U << p.vertex_count) - 1;
+    p.has_depth = (seen >> low & all) == all;
+    p.has_fractions = (seen >> fraction & 15) != 0;
+    const std::uint32_t high = word(0), high3 = word(9);
+    const std::array<std::uint32_t, 4> highs{annotation::High0::get(high), annotation::High1::get(high),
+                                             annotation::High2::get(high), annotation::High0::get(high3)};
     for (std::size_t v = 0; v < p.vertex_count; ++v) {
-      p.vertices[v].z = annotation_.z[v];
-      p.vertices[v].fx = annotation_.fx[v];
-      p.vertices[v].fy = annotation_.fy[v];
+      Vertex& vertex = p.vertices[v];
+      vertex.z = highs[v] << 24 | annotation::DepthLow::get(word(low + v));
+      const std::uint32_t fractions = word(fraction + v);
+      vertex.fx = static_cast<std::uint8_t>(annotation::FractionX::get(fractions));
+      vertex.fy = static_cast<std::uint8_t>(annotation::FractionY::get(fractions));
     }
-    annotation_ = {};
+    annotation_.seen = 0;
   }
   if (!p.has_depth && default_depth_) {
     p.has_depth = true;

@@ -110,11 +110,10 @@ class Gpu {
   [[nodiscard]] std::uint64_t queue_bytes() const;
 
  private:
-  struct Annotation {  // what E7h-EFh said about the next polygon
-    std::array<std::uint32_t, 4> z{};
-    std::array<std::uint8_t, 4> fx{}, fy{};
-    std::uint8_t depths = 0;  // bit v: E8h+v came
-    bool has_fractions = false, has_high_bytes = false, is_set = false;
+  /// What E7h-EFh said about the next polygon, as it came.
+  struct Annotation {
+    std::array<std::uint32_t, 10> words;  // by code, E7h first; [9]: the second E7h
+    std::uint32_t seen = 0;               // bit n: words[n] came
   };
 
   // port.cpp: the GP0 state machine
@@ -122,7 +121,7 @@ class Gpu {
   const std::uint32_t* gather(const std::uint32_t* at, const std::uint32_t* end);
   const std::uint32_t* continue_polyline(const std::uint32_t* at, const std::uint32_t* end);
   void execute(const std::uint32_t* words);
-  void annotate(std::uint32_t word);
+  const std::uint32_t* annotate(const std::uint32_t* at, const std::uint32_t* end);
   void set_attribute(std::uint32_t word);
   void abort_command();
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "gpu/depth.h"
 #include "gpu/mode.h"
 
 namespace gpu {
@@ -53,15 +54,11 @@ struct FixedDepth {
 /// sign inside, so nothing cancels.
 struct DepthJob {
   std::uint32_t* keys;
-  FixedDepth fixed;  ///< only if is_fixed, and then nothing of what follows up to `add`
+  const DepthConstants* constants;
+  FixedDepth fixed;  ///< is_fixed; otherwise 0, and what follows up to `slope` counts
   std::array<double, 3> weight, edge_start, edge_dx, edge_dy;  ///< edges relative to the gradients' vertex
   double slope;                                                ///< of the affine quantity along a row
-  double low, high;                                            ///< its range between near and far
-  double scale, offset;     ///< linear: depth = 1 / quantity * scale + offset
-  double largest;           ///< depth is clamped to 0..largest
-  std::uint32_t flip, add;  ///< key = (stored ^ flip) + add
-  bool equal_wins;          ///< a fragment as near as what is there wins
-  bool is_fixed, is_linear, is_float, writes;
+  bool is_fixed, writes;
   std::uint16_t texel_mask, texel_value;  ///< only texels t with (t & mask) == value are drawn in this pass
 };
 

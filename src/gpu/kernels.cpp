@@ -65,43 +65,65 @@ STAGE auto to_mask32(D d, M mask) {
 #endif
 }
 
-/// What all spans of a job have in common.
+/// What all spans of a job have in common, in registers: as far as the compiler knows, every pixel written
+/// might be a part of the job, which it would read again for every block.
 template <class D>
 struct Constants {
   Palette16<D> palette;
-  Rgb<D> colour{};  // of the lanes, relative to the first
-  V<D> u{}, v{};
+  Rgb<D> colour{}, colour_step{};  // of the lanes, relative to the first; from block to block
+  V<D> u{}, v{}, u_step{}, v_step{};
   FixedDepths<D> depth{};
+  std::uint64_t depth_step = 0;
+  V<D> key_add{};  // the key plus this must not exceed the one that is there
+  V16<D> mask_set{};
+  bool writes_depth = false;
 };
 
 template <class D>
 STAGE Constants<D> prepare(D d, Mode m, const Job& job) {
   Constants<D> c{Palette16<D>(job.clut)};
+  constexpr auto lanes = static_cast<std::uint32_t>(hn::MaxLanes(d));
+  const auto step = [d](const Gradient& g) { return hn::Set(d, static_cast<std::int32_t>(g.dx * lanes)); };
   if (m.surface.shade == Shade::gouraud) {
     c.colour = {ramp(d, job.shade.r.dx), ramp(d, job.shade.g.dx), ramp(d, job.shade.b.dx)};
+    c.colour_step = {step(job.shade.r), step(job.shade.g), step(job.shade.b)};
   }
   if (m.surface.texture != Texture::none) {
     c.u = ramp(d, job.texel.u.dx);
     c.v = ramp(d, job.texel.v.dx);
+    c.u_step = step(job.texel.u);
+    c.v_step = step(job.texel.v);
   }
-  if (m.depth && job.depth.is_fixed) c.depth = FixedDepths<D>::ramp(job.depth.fixed.dx);
+  if (m.depth) {
+    c.depth = FixedDepths<D>::ramp(job.depth.fixed.dx);
+    c.depth_step = job.depth.fixed.dx;
+    c.key_add = hn::Set(d, job.depth.constants->equal_wins ? 0 : 1);
+    c.writes_depth = job.depth.writes;
+  }
+  c.mask_set = hn::Set(Half16<D>(), job.mask_set);
   return c;
 }
 
-/// The attributes of the block that is next in a span.
+/// The block that is next in a span.
 template <class D>
 struct Walk {
+  std::uint16_t* pixels = nullptr;
+  int x = 0, y = 0, left = 0;  // pixels of the span that are left
   Rgb<D> colour{};
+  V<D> dither{};
   V<D> u{}, v{};
   std::uint32_t first_u = 0, first_v = 0;
   bool is_adjacent = false;  // texels from first_u on lie side by side
-  double depth = 0;          // of the span's first pixel
+  std::int32_t* keys = nullptr;
   FixedDepths<D> fixed_depth{};
+  const std::int32_t* computed_keys = nullptr;  // nullptr: fixed_depth counts
 };
 
 template <class D>
-STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, const Span& span) {
-  Walk<D> walk;
+STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, const Span& span,
+                    const std::int32_t* computed_keys) {
+  Walk<D> walk{
+      .pixels = job.pixels + Vram::offset(span.x, span.y), .x = span.x, .y = span.y, .left = span.count};
   const auto start = [&](const Gradient& g, V<D> lanes) {
     return hn::Add(hn::Set(d, static_cast<std::int32_t>(g.at(span.dx, span.dy))), lanes);
   };
@@ -109,6 +131,7 @@ STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, 
     walk.colour = {start(job.shade.r, constants.colour.r), start(job.shade.g, constants.colour.g),
                    start(job.shade.b, constants.colour.b)};
   }
+  if (m.surface.dither) walk.dither = dither_offsets(d, span.x, span.y);
   if (m.surface.texture != Texture::none) {
     walk.first_u = job.texel.u.at(span.dx, span.dy) >> 24;
     walk.first_v = job.texel.v.at(span.dx, span.dy) >> 24;
@@ -118,39 +141,51 @@ STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, 
       walk.v = start(job.texel.v, constants.v);
     }
   }
-  if (m.depth && job.depth.is_fixed) {
-    walk.fixed_depth = FixedDepths<D>::from(job.depth.fixed.at(span.dx, span.dy), constants.depth);
-  } else if (m.depth) {
-    walk.depth = depth_at(job.depth, span);
+  if (m.depth) {
+    walk.keys = reinterpret_cast<std::int32_t*>(job.depth.keys + DepthPlane::offset(span.x, span.y));
+    walk.computed_keys = computed_keys;
+    if (computed_keys == nullptr)
+      walk.fixed_depth = FixedDepths<D>::from(job.depth.fixed.at(span.dx, span.dy), constants.depth);
   }
   return walk;
 }
 
 template <class D>
-STAGE void advance(D d, Mode m, const Job& job, Walk<D>& walk) {
-  constexpr auto lanes = static_cast<std::uint32_t>(hn::MaxLanes(d));
-  const auto block = [d](const Gradient& g) { return hn::Set(d, static_cast<std::int32_t>(g.dx * lanes)); };
+STAGE void advance(D d, Mode m, const Constants<D>& constants, Walk<D>& walk) {
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  walk.pixels += lanes;
+  walk.x += lanes;
+  walk.left -= lanes;
   if (m.surface.shade == Shade::gouraud) {
-    walk.colour.r = hn::Add(walk.colour.r, block(job.shade.r));
-    walk.colour.g = hn::Add(walk.colour.g, block(job.shade.g));
-    walk.colour.b = hn::Add(walk.colour.b, block(job.shade.b));
+    walk.colour.r = hn::Add(walk.colour.r, constants.colour_step.r);
+    walk.colour.g = hn::Add(walk.colour.g, constants.colour_step.g);
+    walk.colour.b = hn::Add(walk.colour.b, constants.colour_step.b);
   }
+  // The pattern repeats every four pixels.
+  if (m.surface.dither && lanes % 4 != 0) walk.dither = dither_offsets(d, walk.x, walk.y);
   if (m.surface.texture != Texture::none) {
     if (walk.is_adjacent) {
-      walk.first_u += lanes;
+      walk.first_u += static_cast<std::uint32_t>(lanes);
     } else {
-      walk.u = hn::Add(walk.u, block(job.texel.u));
-      walk.v = hn::Add(walk.v, block(job.texel.v));
+      walk.u = hn::Add(walk.u, constants.u_step);
+      walk.v = hn::Add(walk.v, constants.v_step);
     }
   }
-  if (m.depth && job.depth.is_fixed) FixedDepths<D>::advance(walk.fixed_depth, job.depth.fixed.dx);
+  if (m.depth) {
+    walk.keys += lanes;
+    if (walk.computed_keys == nullptr) {
+      FixedDepths<D>::advance(walk.fixed_depth, constants.depth_step);
+    } else {
+      walk.computed_keys += lanes;
+    }
+  }
 }
 
-/// Depth key of each lane; `done` pixels of the span lie behind.
+/// Depth key of each lane.
 template <class D>
-STAGE V<D> depth_keys(D d, const Job& job, const Walk<D>& walk, int done) {
-  if (job.depth.is_fixed) return limited_key(d, FixedDepths<D>::whole(walk.fixed_depth));
-  return limited_key(d, key_of(d, job.depth, computed_depth(d, job.depth, walk.depth, done)));
+STAGE V<D> depth_keys(D d, const Walk<D>& walk) {
+  if (walk.computed_keys != nullptr) return hn::LoadU(d, walk.computed_keys);
+  return limited_key(d, FixedDepths<D>::whole(walk.fixed_depth));
 }
 
 template <class D>
@@ -164,7 +199,7 @@ STAGE V<D> texel(D d, Mode m, const Job& job, const Palette16<D>& palette, const
 
 /// The pixel before it meets VRAM: 15 bits, or a raw texel with all 16.
 template <class D>
-STAGE V16<D> shade(D d, Mode m, const Job& job, const Walk<D>& walk, V<D> texel_bits, int x, int y) {
+STAGE V16<D> shade(D d, Mode m, const Job& job, const Walk<D>& walk, V<D> texel_bits) {
   const bool is_gouraud = m.surface.shade == Shade::gouraud, is_textured = m.surface.texture != Texture::none;
   if (m.surface.shade == Shade::raw) return narrow(d, texel_bits);
   if (!is_gouraud && !is_textured) return hn::Set(Half16<D>(), job.colour);
@@ -172,12 +207,12 @@ STAGE V16<D> shade(D d, Mode m, const Job& job, const Walk<D>& walk, V<D> texel_
   Rgb<D> colour{set(job.r), set(job.g), set(job.b)};
   if (is_gouraud) colour = {whole(d, walk.colour.r), whole(d, walk.colour.g), whole(d, walk.colour.b)};
   if (is_textured) colour = modulate(d, texel_bits, colour);
-  return narrow(d, pack(d, m, colour, x, y));
+  return narrow(d, pack(d, m, colour, walk.dither));
 }
 
 /// What of `pixel` ends in VRAM where `back` is, mask bit included.
 template <class D16, class T = hn::Vec<D16>>
-STAGE T combine(D16 d, Mode m, const Job& job, T texel_bits, T pixel, T back) {
+STAGE T combine(D16 d, Mode m, T mask_set, T texel_bits, T pixel, T back) {
   const bool is_textured = m.surface.texture != Texture::none, is_blended = m.write >= Write::average;
   const auto bit15 = hn::Set(d, 0x8000);
   if (is_blended && is_textured) {
@@ -188,48 +223,42 @@ STAGE T combine(D16 d, Mode m, const Job& job, T texel_bits, T pixel, T back) {
   } else if (is_textured && m.surface.shade != Shade::raw) {
     pixel = hn::Or(pixel, hn::And(texel_bits, bit15));
   }
-  return hn::Or(pixel, hn::Set(d, job.mask_set));
+  return hn::Or(pixel, mask_set);
 }
 
 /// One lane: what the watcher is told. A fragment that lost the depth test is told too, as rejected.
 template <class D16, class T = hn::Vec<D16>>
-STAGE Event event_of(D16 d, Mode m, const Job& job, T texel16, T shaded, T back, std::size_t place) {
+STAGE Event event_of(D16 d, Mode m, T mask_set, T texel16, T shaded, T back, std::size_t place) {
   Mode unblended = m;
   unblended.write = Write::opaque;
   Event event;
   event.pixel = static_cast<std::uint32_t>(place);
   event.before = event.after = hn::GetLane(back);
-  event.fragment = hn::GetLane(combine(d, unblended, job, texel16, shaded, back));
+  event.fragment = hn::GetLane(combine(d, unblended, mask_set, texel16, shaded, back));
   event.blended = m.write >= Write::average &&
                   (m.surface.texture == Texture::none || (hn::GetLane(texel16) & 0x8000) != 0);
   return event;
 }
 
 template <class D, class Observer>
-STAGE void draw_block(D d, Mode m, const Job& job, const Palette16<D>& palette, const Walk<D>& walk,
-                      const Span& span, int done, [[maybe_unused]] const Observer& observer) {
+STAGE void draw_block(D d, Mode m, const Job& job, const Constants<D>& constants, const Walk<D>& walk,
+                      [[maybe_unused]] const Observer& observer) {
   const Half16<D> d16;
-  const int x = span.x + done;
-  const std::size_t place = Vram::offset(x, span.y);
-  std::uint16_t* const at = job.pixels + place;
-  auto wanted = hn::FirstN(d16, static_cast<std::size_t>(span.count - done));
-  [[maybe_unused]] auto nearest = wanted;
+  auto wanted = hn::FirstN(d16, static_cast<std::size_t>(walk.left));
+  [[maybe_unused]] auto lost = wanted;
 
   V<D> key = hn::Zero(d);
-  [[maybe_unused]] std::int32_t* keys = nullptr;
   if (m.depth) {
-    key = depth_keys(d, job, walk, done);
-    keys = reinterpret_cast<std::int32_t*>(job.depth.keys + DepthPlane::offset(x, span.y));
-    const auto old = hn::LoadU(d, keys);
-    nearest = to_mask16(d, nearer(d, job.depth, key, old));
+    key = depth_keys(d, walk);
+    lost = to_mask16(d, loses(d, constants.key_add, key, hn::LoadU(d, walk.keys)));
     if constexpr (!Observer::is_on) {
-      wanted = hn::And(wanted, nearest);
+      wanted = hn::AndNot(lost, wanted);
       // Worth a branch that is hard to foretell only where a texel would have to be fetched.
       if (m.surface.texture != Texture::none && hn::AllFalse(d16, wanted)) return;
     }
   }
 
-  const auto texel_bits = texel(d, m, job, palette, walk);
+  const auto texel_bits = texel(d, m, job, constants.palette, walk);
   const auto texel16 = narrow(d, texel_bits);
   if (m.surface.texture != Texture::none) {
     wanted = hn::And(wanted, hn::Ne(texel16, hn::Zero(d16)));  // texel 0000h is no texel
@@ -241,23 +270,23 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Palette16<D>& palette, 
 
   auto back = hn::Zero(d16);
   if (m.write != Write::opaque || Observer::is_on) {
-    back = hn::LoadU(d16, at);
+    back = hn::LoadU(d16, walk.pixels);
     wanted = hn::And(wanted, hn::Eq(hn::And(back, hn::Set(d16, job.mask_test)), hn::Zero(d16)));
   }
-  const auto shaded = shade(d, m, job, walk, texel_bits, x, span.y);
-  const auto pixel = combine(d16, m, job, texel16, shaded, back);
+  const auto shaded = shade(d, m, job, walk, texel_bits);
+  const auto pixel = combine(d16, m, constants.mask_set, texel16, shaded, back);
   if constexpr (Observer::is_on) {
     if (hn::AllFalse(d16, wanted)) return;
-    Event event = event_of(d16, m, job, texel16, shaded, back, place);
+    Event event = event_of(d16, m, constants.mask_set, texel16, shaded, back, Vram::offset(walk.x, walk.y));
     event.depth = static_cast<std::uint32_t>(hn::GetLane(key));
-    event.rejected = m.depth && hn::AllFalse(d16, nearest);
+    event.rejected = m.depth && !hn::AllFalse(d16, lost);
     if (!event.rejected) event.after = hn::GetLane(pixel);
     observer.watch.note(event);
     if (event.rejected) return;
   }
-  store(d16, pixel, wanted, at);
-  if (m.depth && job.depth.writes) {  // after the texel test: a hole hides nothing
-    store(d, key, to_mask32(d, wanted), keys);
+  store(d16, pixel, wanted, walk.pixels);
+  if (m.depth && constants.writes_depth) {  // after the texel test: a hole hides nothing
+    store(d, key, to_mask32(d, wanted), walk.keys);
   }
 }
 
@@ -279,15 +308,21 @@ STAGE void draw_spans(D d, Mode m, const Job& job, std::span<const Span> spans, 
     return;
   }
   const Constants<D> constants = prepare(d, m, job);
-  for (const Span& span : spans) {
-    Walk<D> walk = begin(d, m, job, constants, span);
-    int done = 0;
-    while (true) {
-      draw_block(d, m, job, constants.palette, walk, span, done, observer);
-      done += lanes;
-      if (done >= span.count) break;
-      advance(d, m, job, walk);
+  KeyBatch keys;
+  const bool computes = m.depth && !job.depth.is_fixed;
+  while (!spans.empty()) {
+    const auto batch = spans.first(computes ? compute_keys(job.depth, spans, keys) : spans.size());
+    const std::int32_t* next_keys = computes ? keys.data() : nullptr;
+    for (const Span& span : batch) {
+      Walk<D> walk = begin(d, m, job, constants, span, next_keys);
+      while (true) {
+        draw_block(d, m, job, constants, walk, observer);
+        if (walk.left <= lanes) break;
+        advance(d, m, constants, walk);
+      }
+      if (computes) next_keys += key_room(span);
     }
+    spans = spans.subspan(batch.size());
   }
 }
 
@@ -340,7 +375,43 @@ void copy_block(std::uint16_t* to, const std::uint16_t* from, int width, int hei
   for (; height > 0; --height, to += Vram::width, from += Vram::width) copy_row(to, from, width);
 }
 
-constexpr BlockOperations blocks{&fill_block, &copy_block};
+using D32 = hn::ScalableTag<std::int32_t>;
+
+/// How many pixels at the start of a span lose the depth test, in whole blocks.
+STAGE int hidden_start(const DepthJob& depth, const Span& span, const FixedDepths<D32>& ramp,
+                       V<D32> key_add) {
+  const D32 d;
+  const hn::RebindToUnsigned<D32> du;
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  const auto* old = reinterpret_cast<const std::int32_t*>(depth.keys + DepthPlane::offset(span.x, span.y));
+  auto fixed = FixedDepths<D32>::from(depth.fixed.at(span.dx, span.dy), ramp);
+  int hidden = 0;
+  for (; hidden < span.count; hidden += lanes) {
+    const auto key = limited_key(d, FixedDepths<D32>::whole(fixed));
+    const auto lost = loses(d, key_add, key, hn::LoadU(d, old + hidden));
+    const auto inside = hn::FirstN(du, static_cast<std::size_t>(span.count - hidden));
+    if (!hn::AllFalse(du, hn::AndNot(lost, inside))) break;
+    FixedDepths<D32>::advance(fixed, depth.fixed.dx);
+  }
+  return hidden;
+}
+
+std::size_t cut_hidden(const DepthJob& depth, std::span<Span> spans, int least) {
+  const auto ramp = FixedDepths<D32>::ramp(depth.fixed.dx);
+  const auto key_add = hn::Set(D32(), depth.constants->equal_wins ? 0 : 1);
+  std::size_t kept = 0;
+  for (Span span : spans) {
+    const int hidden = span.count < least ? 0 : hidden_start(depth, span, ramp, key_add);
+    if (hidden >= span.count) continue;
+    span.x = static_cast<std::int16_t>(span.x + hidden);
+    span.dx = static_cast<std::int16_t>(span.dx + hidden);
+    span.count = static_cast<std::int16_t>(span.count - hidden);
+    spans[kept++] = span;
+  }
+  return kept;
+}
+
+constexpr Operations operations{&fill_block, &copy_block, &cut_hidden};
 
 }  // namespace gpu::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -353,21 +424,21 @@ namespace {
 struct Target {
   std::int64_t id;
   const KernelTable* table;
-  const BlockOperations* blocks;
+  const Operations* operations;
 };
 
 /// Best first.
 constexpr Target targets[] = {
 #if HWY_TARGETS & HWY_AVX3
-    {HWY_AVX3, &N_AVX3::table, &N_AVX3::blocks},
+    {HWY_AVX3, &N_AVX3::table, &N_AVX3::operations},
 #endif
 #if HWY_TARGETS & HWY_AVX2
-    {HWY_AVX2, &N_AVX2::table, &N_AVX2::blocks},
+    {HWY_AVX2, &N_AVX2::table, &N_AVX2::operations},
 #endif
 #if HWY_TARGETS & HWY_SSE4
-    {HWY_SSE4, &N_SSE4::table, &N_SSE4::blocks},
+    {HWY_SSE4, &N_SSE4::table, &N_SSE4::operations},
 #endif
-    {HWY_STATIC_TARGET, &HWY_NAMESPACE::table, &HWY_NAMESPACE::blocks},
+    {HWY_STATIC_TARGET, &HWY_NAMESPACE::table, &HWY_NAMESPACE::operations},
 };
 
 bool is_supported(const Target& target) {
@@ -385,7 +456,7 @@ const Target& target() {
 }  // namespace
 
 const KernelTable& kernels() { return *target().table; }
-const BlockOperations& block_operations() { return *target().blocks; }
+const Operations& operations() { return *target().operations; }
 std::string_view target_name() { return hwy::TargetName(target().id); }
 
 std::vector<std::string_view> target_names() {

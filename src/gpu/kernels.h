@@ -26,14 +26,17 @@ void draw_watched(const Mode& mode, const Job& job, std::span<const Span> spans,
 /// The table for the best target of this processor, or the one chosen by use_target.
 const KernelTable& kernels();
 
-/// Whole rectangles inside VRAM, rows Vram::width apart, from the top. Up to Vram::padding halfwords behind a
-/// row are read, and kept.
-struct BlockOperations {
+/// What is done to whole blocks and rows. Rows of blocks are Vram::width apart, from the top, inside VRAM; up
+/// to Vram::padding halfwords behind a row are read, and kept.
+struct Operations {
   void (*fill)(std::uint16_t* to, int width, int height, std::uint16_t value);
   /// A row is read whole before it is written; the rows may overlap.
   void (*copy)(std::uint16_t* to, const std::uint16_t* from, int width, int height);
+  /// For depths in fixed point: leaves out spans, of `least` pixels or more, that lose the depth test
+  /// everywhere, and cuts what loses it at their start. Returns how many are left, at the front.
+  std::size_t (*cut_hidden)(const DepthJob& depth, std::span<Span> spans, int least);
 };
-const BlockOperations& block_operations();
+const Operations& operations();
 
 /// The dispatch target in use: "AVX3", "AVX2", "SSE4", "SCALAR" or what Highway calls another processor's.
 std::string_view target_name();

@@ -52,6 +52,10 @@ void Gpu::gp0(std::span<const std::uint32_t> words) {
 const std::uint32_t* Gpu::run_commands(const std::uint32_t* at, const std::uint32_t* end) {
   while (at != end) {
     const Opening opening = openings[gp0::Opcode::get(*at)];
+    if (opening.command == gp0::Command::annotation) {
+      at = annotate(at, end);
+      continue;
+    }
     if (end - at < opening.words) return gather(at, end);
     execute(at);
     at += opening.words;
@@ -76,6 +80,7 @@ const std::uint32_t* Gpu::gather(const std::uint32_t* at, const std::uint32_t* e
 void Gpu::execute(const std::uint32_t* words) {
   switch (openings[gp0::Opcode::get(words[0])].command) {
     case gp0::Command::nop:
+    case gp0::Command::annotation:  // run_commands has them
       break;
     case gp0::Command::clear_cache:
       clut_.invalidate();
@@ -104,9 +109,6 @@ void Gpu::execute(const std::uint32_t* words) {
       break;
     case gp0::Command::download:
       begin_download(words);
-      break;
-    case gp0::Command::annotation:
-      annotate(words[0]);
       break;
     default:
       set_attribute(words[0]);
@@ -139,30 +141,17 @@ void Gpu::set_attribute(std::uint32_t word) {
   }
 }
 
-/// E7h-EFh: kept until the next polygon. A code of the range that means nothing is
-/// ignored like on the console.
-void Gpu::annotate(std::uint32_t word) {
-  namespace annotation = gp0::annotation;
-  const auto opcode = gp0::Opcode::get(word);
-  if (opcode == annotation::depth_high) {
-    const bool second = annotation_.has_high_bytes;
-    const std::uint32_t bytes[] = {annotation::High0::get(word), annotation::High1::get(word),
-                                   annotation::High2::get(word)};
-    for (std::size_t v = second ? 3 : 0; v < (second ? 4U : 3U); ++v) {
-      annotation_.z[v] = (annotation_.z[v] & annotation::DepthLow::mask) | bytes[second ? 0 : v] << 24;
-    }
-    annotation_.has_high_bytes = true;
-  } else if (opcode < annotation::fraction) {
-    const std::size_t v = opcode - annotation::depth_low;
-    annotation_.z[v] = (annotation_.z[v] & ~annotation::DepthLow::mask) | annotation::DepthLow::get(word);
-    annotation_.depths = static_cast<std::uint8_t>(annotation_.depths | 1U << v);
-  } else {
-    const std::size_t v = opcode - annotation::fraction;
-    annotation_.fx[v] = static_cast<std::uint8_t>(annotation::FractionX::get(word));
-    annotation_.fy[v] = static_cast<std::uint8_t>(annotation::FractionY::get(word));
-    annotation_.has_fractions = true;
+/// E7h-EFh from `at` on: kept until the next polygon, which decodes them.
+const std::uint32_t* Gpu::annotate(const std::uint32_t* at, const std::uint32_t* end) {
+  constexpr std::uint32_t first = gp0::annotation::depth_high, codes = 9;
+  for (; at != end; ++at) {
+    std::uint32_t place = gp0::Opcode::get(*at) - first;
+    if (place >= codes) break;
+    if (place == 0 && (annotation_.seen & 1) != 0) place = codes;  // the second E7h
+    annotation_.words[place] = *at;
+    annotation_.seen |= 1U << place;
   }
-  annotation_.is_set = true;
+  return at;
 }
 
 /// GP1(00h), GP1(01h): whatever is open is dropped.

@@ -47,7 +47,7 @@ void draw_rectangle(const Surface& surface, const Primitive& primitive) {
   put_constants(job, surface, primitive);
   if (is_plain_fill(surface, primitive, mode, box)) {
     ++surface.counters.kernels[mode.index()];
-    block_operations().fill(&surface.vram.at(box.left, box.top), width, height, job.colour);
+    operations().fill(&surface.vram.at(box.left, box.top), width, height, job.colour);
     return;
   }
   const Vertex& corner = primitive.vertices[0];

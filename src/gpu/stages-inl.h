@@ -232,11 +232,10 @@ STAGE Rgb<D> modulate(D d, V<D> texel, const Rgb<D>& colour) {
 
 /// 8-bit channels to a 15-bit pixel, each limited to 0..255 where it can lie outside.
 template <class D>
-STAGE V<D> pack(D d, Mode m, Rgb<D> c, int x, int y) {
+STAGE V<D> pack(D d, Mode m, Rgb<D> c, V<D> dither) {
   const auto top = hn::Set(d, 255);
   if (m.surface.dither) {
-    const auto offset = dither_offsets(d, x, y);
-    const auto add = [&](V<D> channel) { return hn::Max(hn::Add(channel, offset), hn::Zero(d)); };
+    const auto add = [&](V<D> channel) { return hn::Max(hn::Add(channel, dither), hn::Zero(d)); };
     c = {add(c.r), add(c.g), add(c.b)};
   }
   if (m.surface.dither || m.surface.texture != Texture::none) {
@@ -301,13 +300,13 @@ STAGE double depth_at(const DepthJob& depth, const Span& span) {
 }
 
 #if HWY_TARGET == HWY_SCALAR
-template <class D>
+template <bool is_linear, bool is_float, class D>
 STAGE V<D> computed_depth(D, const DepthJob& depth, double start, int column) {
-  double value = std::min(std::max(start + depth.slope * column, depth.low), depth.high);
-  if (depth.is_linear) value = 1.0 / value * depth.scale + depth.offset;
-  value = std::min(std::max(value, 0.0), depth.largest);
-  const std::uint32_t stored = depth.is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                                              : static_cast<std::uint32_t>(std::floor(value + 0.5));
+  const DepthConstants& c = *depth.constants;
+  double value = std::min(std::max(start + depth.slope * column, c.low), c.high);
+  if (is_linear) value = std::min(std::max(1.0 / value * c.linear_scale + c.linear_offset, 0.0), c.scale);
+  const std::uint32_t stored = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
+                                        : static_cast<std::uint32_t>(std::floor(value + 0.5));
   return V<D>(static_cast<std::int32_t>(stored));
 }
 
@@ -323,32 +322,35 @@ struct FixedDepths {
 };
 #else
 /// Doubles, half a block at a time: 32-bit depths need their 53 bits.
-template <class D>
+template <bool is_linear, bool is_float, class D>
 STAGE auto computed_half(D, const DepthJob& depth, double start, int column) {
   const hn::Repartition<double, D> d;
   const hn::Rebind<std::int32_t, decltype(d)> d32;
+  const DepthConstants& c = *depth.constants;
   const auto set = [d](double x) { return hn::Set(d, x); };
   const auto columns = hn::Add(hn::Iota(d, 0), set(column));
   auto value = hn::Add(set(start), hn::Mul(set(depth.slope), columns));
-  value = hn::Min(hn::Max(value, set(depth.low)), set(depth.high));
-  if (depth.is_linear)
-    value = hn::Add(hn::Mul(hn::Div(set(1.0), value), set(depth.scale)), set(depth.offset));
-  value = hn::Min(hn::Max(value, hn::Zero(d)), set(depth.largest));
-  if (depth.is_float) {
+  value = hn::Min(hn::Max(value, set(c.low)), set(c.high));
+  if constexpr (is_linear) {
+    value = hn::Add(hn::Mul(hn::Div(set(1.0), value), set(c.linear_scale)), set(c.linear_offset));
+    value = hn::Min(hn::Max(value, hn::Zero(d)), set(c.scale));
+  }
+  if constexpr (is_float) {
     const hn::Rebind<float, decltype(d)> df;
     return hn::BitCast(d32, hn::DemoteTo(df, value));
+  } else {
+    // There is no conversion to unsigned on every target: shift the range down, convert, shift it back.
+    constexpr double middle = 2147483648.0;
+    const auto shifted = hn::Sub(hn::Floor(hn::Add(value, set(0.5))), set(middle));
+    return hn::Xor(hn::DemoteTo(d32, shifted), hn::Set(d32, static_cast<std::int32_t>(0x80000000)));
   }
-  // There is no conversion to unsigned on every target: shift the range down, convert, shift it back.
-  constexpr double middle = 2147483648.0;
-  const auto shifted = hn::Sub(hn::Floor(hn::Add(value, set(0.5))), set(middle));
-  return hn::Xor(hn::DemoteTo(d32, shifted), hn::Set(d32, static_cast<std::int32_t>(0x80000000)));
 }
 
-template <class D>
+template <bool is_linear, bool is_float, class D>
 STAGE V<D> computed_depth(D d, const DepthJob& depth, double start, int column) {
   constexpr int half = static_cast<int>(hn::MaxLanes(d) / 2);
-  return hn::Combine(d, computed_half(d, depth, start, column + half),
-                     computed_half(d, depth, start, column));
+  return hn::Combine(d, computed_half<is_linear, is_float>(d, depth, start, column + half),
+                     computed_half<is_linear, is_float>(d, depth, start, column));
 }
 
 /// The block's keys in 32.32: two vectors, whose odd 32-bit lanes are the keys.
@@ -386,9 +388,9 @@ struct FixedDepths {
 
 /// Nearer is smaller, whatever the format.
 template <class D>
-STAGE V<D> key_of(D d, const DepthJob& depth, V<D> stored) {
-  return hn::Add(hn::Xor(stored, hn::Set(d, static_cast<std::int32_t>(depth.flip))),
-                 hn::Set(d, static_cast<std::int32_t>(depth.add)));
+STAGE V<D> key_of(D d, const DepthConstants& c, V<D> stored) {
+  return hn::Add(hn::Xor(stored, hn::Set(d, static_cast<std::int32_t>(c.flip))),
+                 hn::Set(d, static_cast<std::int32_t>(c.add)));
 }
 
 /// No fragment is as far as a pixel that nobody wrote.
@@ -398,12 +400,48 @@ STAGE V<D> limited_key(D d, V<D> key) {
   return hn::BitCast(d, hn::Min(hn::BitCast(du, key), hn::Set(du, DepthPlane::farthest)));
 }
 
-/// Where the fragment wins.
+/// Where the fragment lies behind what is there. `add` is 0 where an equal one wins, else 1: no key overflows
+/// by it.
 template <class D>
-STAGE auto nearer(D, const DepthJob& depth, V<D> key, V<D> old) {
+STAGE auto loses(D, V<D> add, V<D> key, V<D> old) {
   const hn::RebindToUnsigned<D> du;
-  const auto less = hn::Lt(hn::BitCast(du, key), hn::BitCast(du, old));
-  return depth.equal_wins ? hn::Or(less, hn::Eq(hn::BitCast(du, key), hn::BitCast(du, old))) : less;
+  return hn::Lt(hn::BitCast(du, old), hn::BitCast(du, hn::Add(key, add)));
+}
+
+/// Keys of a few spans, for those that are computed pixel by pixel; each begins a vector.
+using KeyBatch = std::array<std::int32_t, Vram::width + Vram::padding>;
+
+STAGE std::size_t key_room(const Span& span) {
+  constexpr auto lanes = hn::MaxLanes(hn::ScalableTag<std::int32_t>());
+  return (static_cast<std::size_t>(span.count) + lanes - 1) / lanes * lanes;
+}
+
+template <bool is_linear, bool is_float>
+std::size_t compute_keys(const DepthJob& depth, std::span<const Span> spans, KeyBatch& keys) {
+  const hn::ScalableTag<std::int32_t> d;
+  constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
+  std::size_t done = 0;
+  std::int32_t* next = keys.data();
+  std::int32_t* const end = keys.data() + keys.size();
+  for (; done < spans.size() && static_cast<std::size_t>(end - next) >= key_room(spans[done]); ++done) {
+    const double start = depth_at(depth, spans[done]);
+    for (int x = 0; x < spans[done].count; x += lanes, next += lanes) {
+      const auto stored = computed_depth<is_linear, is_float>(d, depth, start, x);
+      hn::StoreU(limited_key(d, key_of(d, *depth.constants, stored)), d, next);
+    }
+  }
+  return done;
+}
+
+/// The keys of the first spans, as many as there is room for: at least one. Returns how many. Not a stage: it
+/// would be a large part of every kernel with depth.
+static HWY_NOINLINE std::size_t compute_keys(const DepthJob& depth, std::span<const Span> spans, KeyBatch& keys) {
+  if (depth.constants->is_linear) {
+    return depth.constants->is_float ? compute_keys<true, true>(depth, spans, keys)
+                                     : compute_keys<true, false>(depth, spans, keys);
+  }
+  return depth.constants->is_float ? compute_keys<false, true>(depth, spans, keys)
+                                   : compute_keys<false, false>(depth, spans, keys);
 }
 
 }  // namespace gpu::HWY_NAMESPACE

@@ -68,7 +68,7 @@ void fill_rectangle(const Surface& surface, const Primitive& primitive) {
   const int width = primitive.width, height = primitive.height;
   const bool wraps = corner.x + width > Vram::width || corner.y + height > Vram::height;
   if (!wraps && surface.trace == nullptr && primitive.state.skipped_rows == SkippedRows::none) {
-    block_operations().fill(&surface.vram.at(corner.x, corner.y), width, height, value);
+    operations().fill(&surface.vram.at(corner.x, corner.y), width, height, value);
     return;
   }
   PixelRow row;
@@ -101,7 +101,7 @@ void copy_rectangle(const Surface& surface, const Primitive& primitive) {
   const bool wraps =
       std::max(to.x, from.x) + width > Vram::width || std::max(to.y, from.y) + height > Vram::height;
   if (!wraps && is_plain(surface, primitive.state)) {
-    block_operations().copy(&vram.at(to.x, to.y), &vram.at(from.x, from.y), width, height);
+    operations().copy(&vram.at(to.x, to.y), &vram.at(from.x, from.y), width, height);
     return;
   }
   PixelRow row;

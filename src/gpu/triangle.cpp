@@ -8,6 +8,7 @@
 #include "gpu/coverage.h"
 #include "gpu/depth_setup.h"
 #include "gpu/edge.h"
+#include "gpu/kernels.h"
 #include "gpu/setup.h"
 
 namespace gpu {
@@ -146,6 +147,15 @@ void put_gradients(Job& job, const Mode& mode, const Three& t, const Vertex& cor
   }
 }
 
+/// Large surfaces hide large ones for whole rows, and to ask costs less than to shade; small ones are not
+/// worth it.
+void cut_hidden(const DepthJob& depth, SpanList& list, const Corners& c) {
+  constexpr int least = 40;
+  const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
+  if (right - left < least) return;
+  list.count = operations().cut_hidden(depth, {list.spans.data(), list.count}, least);
+}
+
 void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass, const Mode& mode, Job& job,
                    const Three& t) {
   const Corners corners{{{t[0]->x, t[0]->y}, {t[1]->x, t[1]->y}, {t[2]->x, t[2]->y}}};
@@ -158,19 +168,22 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
   ++surface.counters.triangles;
   const std::size_t core = core_vertex(t);
   const Corners sorted = sorted_by_row(corners);
+  // Before the spans: the processor divides while it counts rows.
+  put_gradients(job, mode, t, *t[core], area);
+  if (pass != Pass::console) put_depth(job.depth, *surface.depth, primitive, t, *t[core], pass);
   SpanList list;
   std::size_t upper = add_spans(list, primitive.state, sorted, corners[core]);
   if (surface.limits != nullptr)
     upper = restrict_to(list, *surface.limits, primitive.state, corners[core], upper);
   if (list.count == 0) return;
-  put_gradients(job, mode, t, *t[core], area);
-  if (pass != Pass::console) put_depth(job.depth, *surface.depth, primitive, t, *t[core], pass);
   bool in_order = false;
   if (mode.surface.texture != Texture::none) {
     in_order = samples_what_it_draws(primitive.state, drawn_box(primitive.state, corners, list));
     if (in_order) order_from_core(list, upper, sorted, corners[core]);
     job.page.side_by_side = !in_order && has_adjacent_texels(job, mode.surface.texture);
   }
+  if (pass != Pass::console && job.depth.is_fixed && !in_order && surface.trace == nullptr)
+    cut_hidden(job.depth, list, corners);
   run(surface, mode, job, list.all(), in_order);
 }
 
