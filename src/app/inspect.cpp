@@ -82,18 +82,26 @@ class SceneSource : public Source {
     }
     Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
                     machine_.gpu().vram().pixels()};
-    add_drops(*stats, watched.report);
+    add_lint(*stats, watched.report);
     return watched;
   }
   [[nodiscard]] std::uint32_t first_frame() const override { return 0; }
 
  private:
-  static void add_drops(const scene::FrameStats& stats, inspect::Report& report) {
+  void add_lint(const scene::FrameStats& stats, inspect::Report& report) const {
     for (std::size_t reason = 0; reason < scene::drop_reasons; ++reason) {
       if (stats.dropped[reason] == 0) continue;
-      report.lint.push_back({"dropped", scene::drop_names[reason],
-                             std::to_string(stats.dropped[reason]) + " of " + std::to_string(stats.faces) +
-                                 " faces were left out before drawing"});
+      report.lint.push_back(
+          {"dropped", scene::drop_names[reason],
+           std::to_string(stats.dropped[reason]) + " of " + std::to_string(stats.faces) +
+               " faces were left out before drawing: " + scene::drop_reasons_in_words[reason]});
+    }
+    const auto length = knobs_.visibility == scene::Visibility::sorted
+                            ? scene::sort_keys
+                            : static_cast<std::uint32_t>(knobs_.buckets);
+    const auto& out = stats.out_of_range;
+    for (auto& item : inspect::lint_buckets({out.below, out.at, out.above}, length)) {
+      report.lint.push_back(std::move(item));
     }
     if (stats.splits != 0) {
       report.lint.push_back(
@@ -132,6 +140,8 @@ class DumpSource : public Source {
     }
     Watched watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}),
                     gpu_.vram().pixels()};
+    watched.report.lint.push_back(
+        {"dropped", "", "not available: what a program leaves out before drawing is not in its dump"});
     watched.report.lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
     watched.report.lint.push_back(
         {"links", "", "not available: a dump holds no list, only the words it sent"});
@@ -250,15 +260,12 @@ scene::Result<void> write_pictures(const Options& options, const Watched& watche
           [&] { return write(options.depth_map, [&] { return inspect::depth_image(report, trace); }); });
 }
 
-scene::Result<void> print_history(const inspect::Report& report, const gpu::Trace& trace, Position at) {
-  const auto lines = inspect::pixel_history(report, trace, at.x, at.y);
-  if (lines.empty()) {
-    return scene::fail("--pixel: expected X,Y inside " + std::to_string(report.picture.width) + "x" +
-                       std::to_string(report.picture.height) + ", got " + std::to_string(at.x) + "," +
-                       std::to_string(at.y));
-  }
-  for (const auto& line : lines) std::puts(line.c_str());
-  return {};
+// Before anything is printed or written.
+scene::Result<void> check_inside(const inspect::Rectangle& picture, Position at) {
+  if (at.x < picture.width && at.y < picture.height) return {};
+  return scene::fail("--pixel: expected X,Y inside " + std::to_string(picture.width) + "x" +
+                     std::to_string(picture.height) + ", got " + std::to_string(at.x) + "," +
+                     std::to_string(at.y));
 }
 
 scene::Result<void> write_json(const std::string& path, inspect::FramesJson& json) {
@@ -289,6 +296,10 @@ scene::Result<int> run(const Options& options) {
     trace.clear();
     auto watched = (*source)->frame(n, trace);
     if (!watched) return tl::make_unexpected(watched.error());
+    if (*pixel) {
+      if (auto inside = check_inside(watched->report.picture, **pixel); !inside)
+        return tl::make_unexpected(inside.error());
+    }
     sums.add(watched->report);
     if (json && !json->add(watched->report)) {
       return scene::fail(std::string("--json: a temporary file cannot be written: ") + std::strerror(errno),
@@ -297,8 +308,8 @@ scene::Result<int> run(const Options& options) {
     if (auto done = write_pictures(options, *watched, trace); !done) return tl::make_unexpected(done.error());
     if (prints) std::fputs(inspect::to_text(watched->report).c_str(), stdout);
     if (*pixel && prints) {
-      if (auto done = print_history(watched->report, trace, **pixel); !done)
-        return tl::make_unexpected(done.error());
+      for (const auto& line : inspect::pixel_history(watched->report, trace, (*pixel)->x, (*pixel)->y))
+        std::puts(line.c_str());
     }
     progress.step();
     if (interrupt.was_asked()) break;

@@ -186,6 +186,25 @@ std::optional<LintItem> lint_bucket(std::int64_t bucket, std::uint32_t length) {
   return LintItem{"bucket-range", "", number + " is above the length" + of};
 }
 
+std::vector<LintItem> lint_buckets(const BucketFaults& faults, std::uint32_t length) {
+  std::vector<LintItem> items;
+  const std::string last = std::to_string(std::max(length, 1U) - 1);
+  const auto note = [&](std::uint64_t count, const std::string& at, const char* where,
+                        const std::string& instead) {
+    if (count == 0) return;
+    items.push_back({"bucket-range", "bucket " + at,
+                     std::to_string(count) + (count == 1 ? " primitive asks" : " primitives ask") +
+                         " for a bucket " + where + " of a table of " + std::to_string(length) +
+                         "; drawn in bucket " + instead});
+  };
+  const std::string size = std::to_string(length);
+  note(faults.below, "< 0", "below 0", "0");
+  note(faults.at, "= " + size, "at the length",
+       last + " (compared with > instead of >=, it would be written beside the table)");
+  note(faults.above, "> " + size, "above the length", last);
+  return items;
+}
+
 std::vector<LintItem> lint_draws(const gpu::Trace& trace) {
   std::vector<bool> wrote(trace.draws.size());
   for (const gpu::Event& event : trace.history) {

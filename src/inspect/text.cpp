@@ -67,6 +67,14 @@ void buckets(std::string& out, const Report& report) {
   }
   print(out, "  buckets: %u used, %llu draws share theirs, most in %u (%u)\n", b.used, count(b.tied),
         b.largest_bucket, b.largest);
+  out += "    draws a bucket holds:";
+  for (std::size_t power = 0; power < b.histogram.size(); ++power) {
+    const std::uint32_t least = 1U << power, buckets = b.histogram[power];
+    if (buckets == 0) continue;
+    power == 0 ? print(out, " 1") : print(out, " %u-%u", least, 2 * least - 1);
+    print(out, " (%u)", buckets);
+  }
+  out += "\n";
 }
 
 }  // namespace
@@ -87,9 +95,12 @@ std::string to_text(const Report& report) {
   print(out, "  pixels drawn %llu, samples judged %llu, polygons judged %u", count(report.pixels_drawn),
         count(report.fragments), report.polygons_judged);
   if (report.polygons_without_depth != 0) print(out, ", without depth %u", report.polygons_without_depth);
-  print(out, "\n  wrong pixels %llu (%.2f %% of those drawn)\n", count(report.wrong_pixels()),
-        percent(report.wrong_pixels(), report.pixels_drawn));
-  if (report.polygons_judged == 0) print(out, "    (no polygon carries depth, so nothing could be judged)\n");
+  if (report.polygons_judged == 0) {
+    out += "\n  wrong pixels not available: no polygon carries depth, so nothing could be judged\n";
+  } else {
+    print(out, "\n  wrong pixels %llu (%.2f %% of those drawn)\n", count(report.wrong_pixels()),
+          percent(report.wrong_pixels(), report.pixels_drawn));
+  }
   causes(out, report);
   pairs(out, report);
   buckets(out, report);

@@ -130,8 +130,8 @@ struct FrameBuilder::State {
     }
     if (knobs.visibility != Visibility::sorted)
       return {static_cast<std::uint32_t>(knobs.buckets), knobs.bias, 1};
-    const std::int64_t step = std::max(1, 65536 / knobs.buckets);  // a bias means the same depth
-    return {65536, knobs.bias * step, step};
+    const auto step = std::max<std::int64_t>(1, sort_keys / knobs.buckets);  // a bias means the same depth
+    return {sort_keys, knobs.bias * step, step};
   }
 
   // One trip of all instances through projection, light and submission.
@@ -363,6 +363,7 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
   frame.table_address = s.list.table_address();
   frame.buckets = s.list.table_length();
   frame.stats.primitives = s.list.primitives();
+  frame.stats.out_of_range = s.list.out_of_range();
   frame.stats.words = s.list.words();
   frame.stats.ram_bytes = s.list.ram_bytes();
   frame.stats.lists = 1;
@@ -385,6 +386,7 @@ Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
   frame.stats.gte_ms += again.gte_ms;
   frame.stats.ot_ms += again.ot_ms;
   frame.stats.primitives += s.list.primitives();
+  frame.stats.out_of_range += s.list.out_of_range();
   frame.stats.words += s.list.words();
   frame.stats.ram_bytes = std::max(frame.stats.ram_bytes, s.list.ram_bytes());
   ++frame.stats.lists;

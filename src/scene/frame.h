@@ -37,6 +37,28 @@ enum class Drop : std::uint8_t {
 };
 inline constexpr std::array drop_names{"back face", "outside", "near plane", "far plane", "unrepresentable"};
 inline constexpr std::size_t drop_reasons = drop_names.size();
+/// The same in terms of the console.
+inline constexpr std::array drop_reasons_in_words{
+    "NCLIP is not positive, seen from behind or without area", "beyond one side of the picture",
+    "nearer than the near plane, where FLAG tells of an overflow in the division",
+    "farther than 65535, where FLAG tells of SZ saturated", "FLAG would tell of an overflow in the matrix"};
+static_assert(drop_reasons_in_words.size() == drop_reasons);
+/// Keys of visibility sorted: as many as AVSZ has values.
+inline constexpr std::uint32_t sort_keys = 65536;
+
+/// Primitives whose bucket, bias included, is not one of the table's. They go into its first or last.
+struct OutOfRange {
+  std::uint32_t below = 0;  ///< less than 0
+  std::uint32_t at =
+      0;  ///< the length: programs that compare with > where >= is needed write beside the table
+  std::uint32_t above = 0;
+  OutOfRange& operator+=(const OutOfRange& other) {
+    below += other.below;
+    at += other.at;
+    above += other.above;
+    return *this;
+  }
+};
 
 /// What one frame was made of and how long each stage took.
 struct FrameStats {
@@ -47,12 +69,13 @@ struct FrameStats {
   std::uint32_t splits = 0;                           ///< cuts that visibility bsp made
   std::uint32_t snapped = 0;                          ///< pieces of polygons that became triangles (Pieces)
   std::uint32_t primitives = 0;                       ///< polygons and lines in the lists
-  std::uint32_t lists = 0;                            ///< 1 unless the frame did not fit into RAM at once
-  std::uint32_t words = 0;                            ///< payload words of all primitives and annotations
-  std::uint32_t ram_bytes = 0;                        ///< table and packets, the largest list
-  double gte_ms = 0;                                  ///< animate, transform, light
-  double ot_ms = 0;                                   ///< cull, clip, packets, insertion
-  double raster_ms = 0;                               ///< walk and draw (filled by render_frame)
+  OutOfRange out_of_range;      ///< of them; not with visibility bsp, which has no buckets
+  std::uint32_t lists = 0;      ///< 1 unless the frame did not fit into RAM at once
+  std::uint32_t words = 0;      ///< payload words of all primitives and annotations
+  std::uint32_t ram_bytes = 0;  ///< table and packets, the largest list
+  double gte_ms = 0;            ///< animate, transform, light
+  double ot_ms = 0;             ///< cull, clip, packets, insertion
+  double raster_ms = 0;         ///< walk and draw (filled by render_frame)
   [[nodiscard]] std::uint32_t dropped_by(Drop reason) const {
     return dropped[static_cast<std::size_t>(reason)];
   }

@@ -15,9 +15,12 @@ std::uint32_t node_bytes(std::size_t words) { return static_cast<std::uint32_t>(
 
 }  // namespace
 
-std::uint32_t BucketRule::of(const Primitive& p) const {
-  const std::int64_t bucket = (std::int64_t{p.otz} * length >> 16) + bias + p.material->bias * bias_step;
-  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(bucket, 0, length - 1));
+std::int64_t BucketRule::wanted(const Primitive& p) const {
+  return (std::int64_t{p.otz} * length >> 16) + bias + p.material->bias * bias_step;
+}
+
+std::uint32_t BucketRule::limited(std::int64_t wanted) const {
+  return static_cast<std::uint32_t>(std::clamp<std::int64_t>(wanted, 0, length - 1));
 }
 
 std::size_t encode(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out) {
@@ -77,6 +80,7 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   order_ = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
   full_ = false;
   primitives_ = words_ = 0;
+  out_of_range_ = {};
   keyed_.clear();
   if (sorts_) {
     table_.reset();
@@ -92,8 +96,12 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   first.push(environment);
 }
 
-void ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
-  if (bucket < range_.first || bucket > range_.last || full_) return;
+void ListBuilder::note_out_of_range(std::int64_t wanted) {
+  ++(wanted < 0 ? out_of_range_.below : wanted == rule_.length ? out_of_range_.at : out_of_range_.above);
+}
+
+bool ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
+  if (bucket < range_.first || bucket > range_.last || full_) return false;
   std::array<std::uint32_t, 16> words;
   std::optional<std::uint32_t> note;
   const std::size_t note_words = encode_annotation(p, style_, words);
@@ -105,7 +113,7 @@ void ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
   const auto node = full_ ? std::nullopt : arena_->push(std::span(words).first(n));
   if (!node) {
     full_ = true;
-    return;
+    return false;
   }
   if (note) ot::link(*ram_, *note, *node);
   ++primitives_;
@@ -115,6 +123,7 @@ void ListBuilder::add(const Primitive& p, std::uint32_t bucket) {
   } else {
     table_->insert(bucket, note.value_or(*node), *node);
   }
+  return true;
 }
 
 void ListBuilder::end() {

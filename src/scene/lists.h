@@ -36,7 +36,11 @@ struct BucketRule {
   std::uint32_t length = 1;
   std::int64_t bias = 0;
   std::int64_t bias_step = 1;  ///< of a material's bias
-  [[nodiscard]] std::uint32_t of(const Primitive& p) const;
+  /// As the formula gives it.
+  [[nodiscard]] std::int64_t wanted(const Primitive& p) const;
+  /// Limited to the table.
+  [[nodiscard]] std::uint32_t limited(std::int64_t wanted) const;
+  [[nodiscard]] std::uint32_t of(const Primitive& p) const { return limited(wanted(p)); }
 };
 
 /// Words of a primitive's own node; at most 14.
@@ -72,9 +76,12 @@ class ListBuilder {
   /// Clears the table and writes the environment node.
   void begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule, const PacketStyle& style,
              const BucketRange& range, std::span<const std::uint32_t> environment);
-  void operator()(const Primitive& p) { add(p, rule_.of(p)); }
-  /// The same into a bucket of the caller's choice.
-  void add(const Primitive& p, std::uint32_t bucket);
+  void operator()(const Primitive& p) {
+    const std::int64_t wanted = rule_.wanted(p);
+    if (add(p, rule_.limited(wanted)) && (wanted < 0 || wanted >= rule_.length)) note_out_of_range(wanted);
+  }
+  /// The same into a bucket of the caller's choice. False: it belongs to another list, or there is no room.
+  bool add(const Primitive& p, std::uint32_t bucket);
   /// Links everything; afterwards the list can be walked from head().
   void end();
 
@@ -87,12 +94,15 @@ class ListBuilder {
   [[nodiscard]] std::uint32_t table_address() const;
   [[nodiscard]] std::uint32_t table_length() const { return sorts_ ? 0 : rule_.length; }
   [[nodiscard]] std::uint32_t primitives() const { return primitives_; }
+  [[nodiscard]] const OutOfRange& out_of_range() const { return out_of_range_; }
   [[nodiscard]] std::uint32_t words() const { return words_; }
   [[nodiscard]] std::uint32_t ram_bytes() const;
   /// Bytes for packets in a RAM of that size.
   [[nodiscard]] static std::uint32_t room(const ot::MainRam& ram, std::uint32_t table_length);
 
  private:
+  void note_out_of_range(std::int64_t wanted);
+
   ot::MainRam* ram_ = nullptr;
   std::optional<ot::OrderingTable> table_;
   std::optional<ot::PacketArena> arena_;
@@ -104,6 +114,7 @@ class ListBuilder {
   ot::Order order_ = ot::Order::lifo;
   bool sorts_ = false, full_ = false;
   std::uint32_t arena_begin_ = 0, primitives_ = 0, words_ = 0;
+  OutOfRange out_of_range_;
 };
 
 }  // namespace scene

@@ -98,6 +98,20 @@ TEST_SUITE("inspect") {
     CHECK(inspect::lint_bucket(9, 8)->text == "bucket 9 is above the length of a table of 8");
   }
 
+  TEST_CASE("primitives that ask for a bucket below, at or above the table's range are told apart") {
+    CHECK(inspect::lint_buckets({}, 64).empty());
+    const auto items = inspect::lint_buckets({3, 1, 2}, 64);
+    REQUIRE(items.size() == 3);
+    for (const auto& item : items) CHECK(item.kind == "bucket-range");
+    CHECK(items[0].at == "bucket < 0");
+    CHECK(items[0].text == "3 primitives ask for a bucket below 0 of a table of 64; drawn in bucket 0");
+    CHECK(items[1].at == "bucket = 64");
+    CHECK(items[1].text.starts_with(
+        "1 primitive asks for a bucket at the length of a table of 64; drawn in bucket 63"));
+    CHECK(items[2].text ==
+          "2 primitives ask for a bucket above the length of a table of 64; drawn in bucket 63");
+  }
+
   TEST_CASE("without a table, bucket checks read not available") {
     Ram r;
     const auto items = inspect::lint_list(r.ram, r.table.head(), std::nullopt);

@@ -161,6 +161,29 @@ TEST_SUITE("scene") {
     CHECK(Drawn(s).middle() == 31 << 10);
   }
 
+  // z 3000: AVSZ3 gives 2731 * 9000 >> 12 = 6000, and 6000 * 64 >> 16 is bucket 5 of 64.
+  TEST_CASE(
+      "a bucket that the bias puts below, at or above the table's range is counted, and drawn all the same") {
+    scene::Mesh mesh;
+    add_triangle(mesh, {-1, -1, -3}, {1, -1, -3}, {0, 1, -3}, red);
+    const auto s = scene_of(mesh);
+    struct Row {
+      int bias;
+      std::uint32_t below, at, above;
+    };
+    for (const auto visibility : {scene::Visibility::ot, scene::Visibility::zbuffer}) {
+      for (const Row& row :
+           {Row{-6, 1, 0, 0}, Row{-5, 0, 0, 0}, Row{58, 0, 0, 0}, Row{59, 0, 1, 0}, Row{60, 0, 0, 1}}) {
+        CAPTURE(row.bias);
+        Drawn d(s, {.visibility = visibility, .buckets = 64, .bias = row.bias});
+        CHECK(d.stats.out_of_range.below == row.below);
+        CHECK(d.stats.out_of_range.at == row.at);
+        CHECK(d.stats.out_of_range.above == row.above);
+        CHECK(d.middle() == 31);
+      }
+    }
+  }
+
   TEST_CASE("every face is drawn or counted under a reason") {
     for (unsigned seed = 0; seed < 20; ++seed) {
       auto s = random_scene(seed, 300);
