@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "cost/axes.h"
 #include "cost/metrics.h"
@@ -18,35 +20,45 @@ using Json = nlohmann::ordered_json;
 
 using Timed = std::function<scene::Result<double>()>;  // draws once; milliseconds
 
-/// A frame as it is, then without one effect after the other.
+/// A frame as it is, and without one effect after the other. Each is timed beside the whole frame, before and
+/// after it in turn, so that what a busy machine adds falls on both alike.
 class Variants {
  public:
-  explicit Variants(Timed whole) { add({"whole", 0, 0, 0}, std::move(whole)); }
-  void add(Effect effect, Timed time) {
-    effects_.push_back(std::move(effect));
-    times_.push_back(std::move(time));
-    samples_.emplace_back();
-  }
-  void run() {
-    for (std::size_t i = 0; i < times_.size(); ++i) {
-      if (const auto ms = times_[i]()) samples_[i].push_back(*ms);
+  explicit Variants(Timed whole) : whole_(std::move(whole)) {}
+  void add(Effect effect, Timed without) { variants_.push_back({std::move(effect), std::move(without), {}}); }
+  void run(int round) {
+    if (variants_.empty()) time_whole();
+    for (Variant& v : variants_) {
+      const bool whole_first = round % 2 == 0;
+      const double before = whole_first ? time_whole() : 0;
+      const auto without = v.without();
+      const double with = whole_first ? before : time_whole();
+      if (without) v.differences.push_back(with - *without);
     }
   }
-  [[nodiscard]] double whole_ms() const { return least(samples_[0]); }
+  [[nodiscard]] double whole_ms() const { return median(wholes_); }
   void report(std::vector<Effect>& out) const {
-    for (std::size_t i = 1; i < effects_.size(); ++i) {
-      out.push_back(effects_[i]);
-      out.back().ms = samples_[i].empty() ? 0 : whole_ms() - least(samples_[i]);
+    for (const Variant& v : variants_) {
+      out.push_back(v.effect);
+      out.back().ms = median(v.differences);
+      out.back().spread = spread(v.differences);
     }
   }
 
  private:
-  /// What a busy machine adds is never negative: differences are taken of the least times.
-  static double least(const std::vector<double>& samples) { return percentile(samples, 0); }
+  struct Variant {
+    Effect effect;
+    Timed without;
+    std::vector<double> differences;
+  };
+  double time_whole() {
+    wholes_.push_back(whole_().value_or(0));
+    return wholes_.back();
+  }
 
-  std::vector<Effect> effects_;
-  std::vector<Timed> times_;
-  std::vector<std::vector<double>> samples_;
+  Timed whole_;
+  std::vector<Variant> variants_;
+  std::vector<double> wholes_;
 };
 
 scene::Result<double> total_ms(Subject& subject, const scene::Knobs& knobs) {
@@ -134,28 +146,76 @@ void find_kernels_and_buffers(const gpu::Gpu& gpu, const Drawn& drawn, EffectRep
   add("list in main RAM", drawn.stats.ram_bytes);
   add("depth plane", gpu.depth_bytes());
   add("queue of semi-transparent polygons", gpu.queue_bytes());
+  add("accumulated picture", drawn.history_bytes);
   if (gpu.canvas() == nullptr) return;
   add_kernels<gpu::canvas::Mode>(gpu.canvas()->counters().runs, " runs", report.kernels);
   for (const auto& buffer : gpu.canvas()->buffers()) add(std::string(buffer.name), buffer.bytes);
 }
 
-/// Primitives and written pixels of each packet effect.
-std::vector<Effect> count_packets(const gpu::Trace& trace) {
+/// Pixels that each draw wrote.
+std::vector<std::uint64_t> count_written(const gpu::Trace& trace) {
   std::vector<std::uint64_t> written(trace.draws.size());
   for (const auto& event : trace.history) {
     if (!event.rejected) ++written[event.draw];
   }
-  std::vector<Effect> effects;
-  for (const auto& asked : packet_effects()) {
-    Effect effect{std::string(asked.name), 0, 0, 0};
-    for (std::size_t i = 0; i < trace.draws.size(); ++i) {
-      if (!asked.asks(trace.draws[i])) continue;
-      ++effect.primitives;
-      effect.pixels += written[i];
-    }
-    effects.push_back(effect);
+  return written;
+}
+
+/// Primitives that ask for an effect, and what they wrote.
+template <class Asks>
+Effect counted(std::string name, const gpu::Trace& trace, std::span<const std::uint64_t> written,
+               Asks&& asks) {
+  Effect effect{std::move(name)};
+  for (std::size_t i = 0; i < trace.draws.size(); ++i) {
+    if (!asks(trace.draws[i])) continue;
+    ++effect.primitives;
+    effect.pixels += written[i];
   }
-  return effects;
+  return effect;
+}
+
+bool is_polygon(const gpu::Primitive& p) { return p.kind == gpu::Kind::polygon; }
+
+/// Where the corners of a polygon lie: tells which face it is of.
+using Corners = std::array<std::int32_t, 8>;
+Corners corners_of(const gpu::Primitive& p) {
+  Corners c{};
+  for (std::size_t i = 0; i < p.vertex_count; ++i) {
+    c[2 * i] = p.vertices[i].x - p.state.offset_x();
+    c[2 * i + 1] = p.vertices[i].y - p.state.offset_y();
+  }
+  return c;
+}
+
+/// Corners of the polygons of lit materials.
+std::set<Corners> lit_polygons(Subject& subject, const scene::Scene& scene, const scene::Knobs& knobs) {
+  const scene::World& world = scene.world;
+  std::set<Corners> lit;
+  for (const auto& polygon : subject.polygons(knobs)) {
+    const auto& mesh = world.meshes[world.instances[polygon.instance].mesh];
+    if (!world.materials[mesh.faces[polygon.face].material].lit) continue;
+    Corners c{};
+    for (std::size_t i = 0; i < (polygon.packet.quad ? 4U : 3U); ++i) {
+      c[2 * i] = polygon.packet.xy[i].x;
+      c[2 * i + 1] = polygon.packet.xy[i].y;
+    }
+    lit.insert(c);
+  }
+  return lit;
+}
+
+/// As often as asked, or nine times at least and then as often as fits into a second or two: the differences
+/// of short frames are small beside the noise of a clock and a machine.
+void time_all(Variants& packets, Variants& frames, int rounds) {
+  constexpr int least = 9;
+  constexpr int most = 201;
+  constexpr std::chrono::milliseconds budget(1500);
+  const auto begin = std::chrono::steady_clock::now();
+  for (int round = 0; round < (rounds > 0 ? rounds : most); ++round) {
+    if (rounds == 0 && round >= least && std::chrono::steady_clock::now() - begin > budget) break;
+    packets.run(round);
+    frames.run(round);
+  }
 }
 
 /// Draws whose texels lie where the canvas stands in for VRAM: they see what VRAM holds, not what was drawn.
@@ -173,51 +233,49 @@ scene::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_
   if (!drawn) return tl::make_unexpected(drawn.error());
   auto words = subject.words(knobs);
   if (!words) return tl::make_unexpected(words.error());
-  const auto counted = subject.draw_words(knobs, *words);
-  if (!counted) return tl::make_unexpected(counted.error());
+  if (auto once = subject.draw_words(knobs, *words); !once) return tl::make_unexpected(once.error());
   find_kernels_and_buffers(subject.gpu(), *drawn, report);
   gpu::Trace trace;
   if (auto traced = subject.trace_console(knobs, trace); !traced) return tl::make_unexpected(traced.error());
-  std::uint64_t polygons = 0;
-  std::uint64_t pixels = 0;
   for (const auto& draw : trace.draws) {
-    polygons += draw.kind == gpu::Kind::polygon ? 1 : 0;
     if (subject.uses_canvas(knobs) && reads_frame(draw, knobs) && report.notes.empty()) {
       report.notes.emplace_back(
           "a texture page lies in the frame buffer: it is read from VRAM, which the canvas does "
           "not draw into");
     }
   }
-  for (const auto& event : trace.history) pixels += event.rejected ? 0 : 1;
+  const auto written = count_written(trace);
 
   Variants packets([&] { return subject.draw_words(knobs, *words); });
-  const auto counts = count_packets(trace);
-  std::vector<std::vector<std::uint32_t>> edited(counts.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i].primitives == 0) continue;
+  const auto asked = packet_effects();
+  std::vector<std::vector<std::uint32_t>> edited(asked.size());
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    const auto effect = counted(std::string(asked[i].name), trace, written, asked[i].asks);
+    if (effect.primitives == 0) continue;
     edited[i] = without(*words, i);
-    packets.add(counts[i], [&, i] { return subject.draw_words(knobs, edited[i]); });
+    packets.add(effect, [&, i] { return subject.draw_words(knobs, edited[i]); });
   }
   Variants frames([&] { return total_ms(subject, knobs); });
   for (const auto& name : raised(knobs)) {
-    const auto less = lowered(knobs, name);
     std::string value;
     for (const auto& knob : scene::knob_table()) value += knob.name == name ? knob.get(knobs) : "";
-    frames.add({joined({name, " ", value}), polygons, pixels, 0},
-               [&, less] { return total_ms(subject, less); });
+    frames.add(counted(joined({name, " ", value}), trace, written, is_polygon),
+               [&, less = lowered(knobs, name)] { return total_ms(subject, less); });
   }
   Subject clear(stripped(scene, Without::fog), frame);
   Subject unlit(stripped(scene, Without::light), frame);
   if (scene.world.depth_cue.on) {
-    frames.add({"depth cue (fog)", polygons, pixels, 0}, [&] { return total_ms(clear, knobs); });
+    frames.add(counted("depth cue (fog)", trace, written, is_polygon),
+               [&] { return total_ms(clear, knobs); });
   }
-  if (std::ranges::any_of(scene.world.materials, &scene::Material::lit)) {
-    frames.add({"lighting", polygons, pixels, 0}, [&] { return total_ms(unlit, knobs); });
+  const auto lit = lit_polygons(subject, scene, knobs);
+  if (!lit.empty()) {
+    frames.add(
+        counted("lighting", trace, written,
+                [&lit](const gpu::Primitive& p) { return is_polygon(p) && lit.contains(corners_of(p)); }),
+        [&] { return total_ms(unlit, knobs); });
   }
-  for (int round = 0; round < rounds; ++round) {
-    packets.run();
-    frames.run();
-  }
+  time_all(packets, frames, rounds);
   report.ms = frames.whole_ms();
   packets.report(report.effects);
   frames.report(report.effects);
@@ -228,12 +286,12 @@ std::string to_text(const EffectReport& report) {
   std::string text =
       joined({report.scene, ", frame ", std::to_string(report.frame), ", ", std::to_string(report.width), "x",
               std::to_string(report.height), ": ", number(report.ms),
-              " ms\n\neffect                         primitives     pixels        ms\n"});
+              " ms\n\neffect                         primitives     pixels        ms    spread\n"});
   std::array<char, 160> line{};
   for (const auto& e : report.effects) {
-    std::snprintf(line.data(), line.size(), "  %-28s %10llu %10llu %9.3f\n", e.name.c_str(),
+    std::snprintf(line.data(), line.size(), "  %-28s %10llu %10llu %9.4f %9.4f\n", e.name.c_str(),
                   static_cast<unsigned long long>(e.primitives), static_cast<unsigned long long>(e.pixels),
-                  e.ms);
+                  e.ms, e.spread);
     text += line.data();
   }
   if (report.effects.empty()) text += "  none: flat polygons in list order\n";
@@ -249,7 +307,11 @@ std::string to_text(const EffectReport& report) {
 std::string to_json(const EffectReport& report) {
   Json effects = Json::array();
   for (const auto& e : report.effects) {
-    effects.push_back({{"name", e.name}, {"primitives", e.primitives}, {"pixels", e.pixels}, {"ms", e.ms}});
+    effects.push_back({{"name", e.name},
+                       {"primitives", e.primitives},
+                       {"pixels", e.pixels},
+                       {"ms", e.ms},
+                       {"spread_ms", e.spread}});
   }
   Json buffers = Json::array();
   for (const auto& b : report.buffers) buffers.push_back({{"name", b.name}, {"bytes", b.bytes}});

@@ -11,9 +11,10 @@ namespace cost {
 
 struct Effect {
   std::string name;
-  std::uint64_t primitives = 0;  ///< that ask for it; of a knob: all polygons
+  std::uint64_t primitives = 0;  ///< that ask for it; of a knob and of fog: all polygons
   std::uint64_t pixels = 0;      ///< that those wrote
-  double ms = 0;  ///< the frame's time less that of the frame without the effect: least of each
+  double ms = 0;                 ///< the frame's time less that of the frame without the effect: median
+  double spread = 0;             ///< of these differences, quartile to quartile
 };
 
 struct NamedBytes {
@@ -33,9 +34,10 @@ struct EffectReport {
       notes;  ///< where the picture may differ from the console's for a reason of our own
 };
 
-/// Error: the frame cannot be drawn. `rounds` timings of each variant, interleaved.
+/// Error: the frame cannot be drawn. `rounds` timings of each variant, each beside one of the whole frame; 0:
+/// as many as it takes for prices to settle, within about two seconds.
 scene::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
-                                         const scene::Knobs& knobs, int rounds = 9);
+                                         const scene::Knobs& knobs, int rounds = 0);
 
 std::string to_text(const EffectReport& report);
 /// {"schema":"otter.effects/1",...}

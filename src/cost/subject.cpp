@@ -58,6 +58,7 @@ scene::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   drawn.stages.ot = stats->ot_ms;
   drawn.stages.raster = std::max(0.0, stats->raster_ms - drawn.stages.walk);
   drawn.stages.filter = filter;
+  drawn.history_bytes = presenter_.bytes();
   drawn.bytes = stats->ram_bytes + gpu_->depth_bytes() + gpu_->queue_bytes() + presenter_.bytes();
   if (gpu_->canvas() != nullptr) {
     for (const auto& buffer : gpu_->canvas()->buffers()) drawn.bytes += buffer.bytes;

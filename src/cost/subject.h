@@ -32,6 +32,7 @@ struct Drawn {
   Stages stages;
   scene::FrameStats stats;
   std::uint64_t bytes = 0;  ///< memory the frame needs: lists in main RAM, frame, depth, samples, history
+  std::uint64_t history_bytes = 0;  ///< of these, what temporal accumulation keeps
 };
 
 /// A frame with the writer and the texture coordinates of each pixel, one sample a pixel.
