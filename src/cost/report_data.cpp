@@ -49,7 +49,14 @@ Json setting(const SceneResult& scene, const Row& row) {
             {"walk", row.stages.walk},
             {"raster", row.stages.raster},
             {"filter", row.stages.filter}}},
-          {"bytes", row.bytes},
+          {"bytes", row.touched.total()},
+          {"bytes_by",
+           {{"list", row.touched.list},
+            {"colour", row.touched.colour},
+            {"depth", row.touched.depth},
+            {"texels", row.touched.texels},
+            {"filter", row.touched.filter}}},
+          {"held_bytes", row.held_bytes},
           {"errors", errors(row.errors)},
           {"console", row.is_console},
           {"pareto", row.on_front},
@@ -73,7 +80,7 @@ void add_rows(std::string& text, const SceneResult& scene, const Axis& axis, Dir
     const double ratio = console != nullptr && console->ms > 0 ? row.ms / console->ms : 0;
     text += "  " + padded(row.setting, 18, false) + padded(number(row.ms), 9) +
             padded(number(row.spread), 9) + padded(ratio > 0 ? joined({"x", number(ratio)}) : "-", 9) +
-            padded(bytes(row.bytes), 10) + padded(number(row.errors.of(axis.measure)), 10) +
+            padded(bytes(row.touched.total()), 10) + padded(number(row.errors.of(axis.measure)), 10) +
             padded(number(row.errors.psnr), 8) + padded(number(row.errors.ssim), 9) +
             (row.is_console ? "  console" : "") + "\n";
   }
@@ -134,7 +141,8 @@ std::string to_json(const Report& report) {
 
 std::string to_csv(const Report& report) {
   std::string csv =
-      "scene,axis,direction,setting,ms,spread_ms,gte_ms,ot_ms,walk_ms,raster_ms,filter_ms,bytes,pixels_drawn,"
+      "scene,axis,direction,setting,ms,spread_ms,gte_ms,ot_ms,walk_ms,raster_ms,filter_ms,bytes,held_bytes,"
+      "pixels_drawn,"
       "wrong_pixels,geometric_mean_px,geometric_p95_px,geometric_max_px,texel_mean,texel_p95,texel_max,"
       "colour_rms,"
       "block_rms,psnr,ssim,edge_rms,console,pareto\r\n";
@@ -152,8 +160,8 @@ std::string to_csv(const Report& report) {
                              row.stages.raster, row.stages.filter}) {
         csv += joined({",", number(v)});
       }
-      csv += joined({",", std::to_string(row.bytes), ",", std::to_string(e.pixels_drawn), ",",
-                     std::to_string(e.wrong_pixels)});
+      csv += joined({",", std::to_string(row.touched.total()), ",", std::to_string(row.held_bytes), ",",
+                     std::to_string(e.pixels_drawn), ",", std::to_string(e.wrong_pixels)});
       for (const double v :
            {e.geometric_px.mean, e.geometric_px.p95, e.geometric_px.greatest, e.texel.mean, e.texel.p95,
             e.texel.greatest, e.colour_rms, e.block_rms, e.psnr, e.ssim, e.edge_rms}) {
@@ -178,7 +186,7 @@ std::string to_text(const Report& report) {
         text += "\n " + std::string(axis.name) +
                 (direction == Direction::up ? ", up from the console" : ", down from the most accurate") +
                 "\n  " + padded("setting", 18, false) + padded("ms", 9) + padded("spread", 9) +
-                padded("ratio", 9) + padded("memory", 10) + padded("error", 10) + padded("PSNR", 8) +
+                padded("ratio", 9) + padded("touched", 10) + padded("error", 10) + padded("PSNR", 8) +
                 padded("SSIM", 9) + "   error: " + info(axis.measure).name() + "\n";
         add_rows(text, scene, axis, direction);
       }

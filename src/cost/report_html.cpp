@@ -133,19 +133,20 @@ std::string summary_table(const SceneResult& scene, const Axis& axis) {
 
 /// Every stage of every setting.
 std::string stage_table(const std::vector<const Row*>& rows, std::string_view caption) {
-  std::string html = joined(
-      {"<div class=wide><table><caption>", caption,
-       "</caption><tr><th "
-       "class=name>setting<th>ms<th>spread<th>ratio<th>GTE<th>OT<th>walk<th>raster<th>filter"
-       "<th>touched<th>vertices, px mean<th>p95<th>max<th>texels mean<th>p95<th>max<th>colour, rms<th>4x4 "
-       "means<th>PSNR<th>SSIM<th>edges, rms</tr>\n"});
+  std::string html =
+      joined({"<div class=wide><table><caption>", caption,
+              "</caption><tr><th "
+              "class=name>setting<th>ms<th>spread<th>ratio<th>GTE<th>OT<th>walk<th>raster<th>filter"
+              "<th>touched<th>held<th>vertices, px mean<th>p95<th>max<th>texels "
+              "mean<th>p95<th>max<th>colour, rms<th>4x4 "
+              "means<th>PSNR<th>SSIM<th>edges, rms</tr>\n"});
   const double console = console_ms(rows);
   for (const Row* row : rows) {
     html += joined({"<tr", row->is_console ? " class=console" : "", "><td class=name>", escaped(row->setting),
                     "<td>", number(row->ms), "<td>", number(row->spread), "<td>", ratio(row->ms, console)});
     const auto& s = row->stages;
     for (const double stage : {s.gte, s.ot, s.walk, s.raster, s.filter}) html += "<td>" + number(stage);
-    html += "<td>" + bytes(row->bytes);
+    html += "<td>" + bytes(row->touched.total()) + "<td>" + bytes(row->held_bytes);
     const Errors& e = row->errors;
     for (const double v :
          {e.geometric_px.mean, e.geometric_px.p95, e.geometric_px.greatest, e.texel.mean, e.texel.p95,

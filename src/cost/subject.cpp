@@ -36,6 +36,7 @@ scene::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   scene::Result<scene::FrameStats> stats;
   double filter = 0;
   for (int i = 0; i <= before; ++i) {
+    if (gpu_->canvas() != nullptr) gpu_->canvas()->reset_counters();  // those of the last frame are asked for
     stats = scene::render_frame(build, seconds(), knobs, ram_, *gpu_);
     if (!stats) return tl::make_unexpected(stats.error());
     const double start = now_ms();
@@ -59,11 +60,12 @@ scene::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   drawn.stages.raster = std::max(0.0, stats->raster_ms - drawn.stages.walk);
   drawn.stages.filter = filter;
   drawn.history_bytes = presenter_.bytes();
-  drawn.bytes = stats->ram_bytes + gpu_->depth_bytes() + gpu_->queue_bytes() + presenter_.bytes();
+  drawn.held_bytes = stats->ram_bytes + gpu_->depth_bytes() + gpu_->queue_bytes() + presenter_.bytes();
   if (gpu_->canvas() != nullptr) {
-    for (const auto& buffer : gpu_->canvas()->buffers()) drawn.bytes += buffer.bytes;
+    for (const auto& buffer : gpu_->canvas()->buffers()) drawn.held_bytes += buffer.bytes;
   } else {
-    drawn.bytes += static_cast<std::uint64_t>(knobs.width) * static_cast<std::uint64_t>(knobs.height) * 2;
+    drawn.held_bytes +=
+        static_cast<std::uint64_t>(knobs.width) * static_cast<std::uint64_t>(knobs.height) * 2;
   }
   return drawn;
 }

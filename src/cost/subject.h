@@ -31,7 +31,8 @@ struct Stages {
 struct Drawn {
   Stages stages;
   scene::FrameStats stats;
-  std::uint64_t bytes = 0;  ///< memory the frame needs: lists in main RAM, frame, depth, samples, history
+  std::uint64_t held_bytes =
+      0;  ///< memory the frame needs: lists in main RAM, frame, depth, samples, history
   std::uint64_t history_bytes = 0;  ///< of these, what temporal accumulation keeps
 };
 

@@ -13,7 +13,8 @@ struct Job {
   scene::Knobs knobs;
   std::vector<std::size_t> rows;
   std::vector<Stages> samples;
-  std::uint64_t bytes = 0;
+  Touched touched = {};
+  std::uint64_t held_bytes = 0;
 };
 
 double now_seconds() {
@@ -91,7 +92,7 @@ std::vector<Job> jobs_of(const std::vector<Row>& rows) {
     if (same != jobs.end()) {
       same->rows.push_back(i);
     } else {
-      jobs.push_back({rows[i].knobs, {i}, {}, 0});
+      jobs.push_back({rows[i].knobs, {i}, {}});
     }
   }
   return jobs;
@@ -114,7 +115,8 @@ void summarise(const Job& job, Row& row) {
   for (const auto& s : job.samples) totals.push_back(s.total());
   row.ms = median(totals);
   row.spread = spread(totals);
-  row.bytes = job.bytes;
+  row.touched = job.touched;
+  row.held_bytes = job.held_bytes;
 }
 
 }  // namespace
@@ -162,7 +164,8 @@ scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) 
     const double start = now_seconds();
     const auto drawn = subject.draw(job.knobs);
     const double seconds = now_seconds() - start;
-    const auto errors = drawn ? meter.measure(job.knobs) : tl::make_unexpected(drawn.error());
+    const auto counted = drawn ? touched(subject, job.knobs, *drawn) : tl::make_unexpected(drawn.error());
+    const auto errors = counted ? meter.measure(job.knobs) : tl::make_unexpected(counted.error());
     forecast.first_round(seconds, now_seconds() - start);
     step();
     if (!errors) {
@@ -171,7 +174,8 @@ scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) 
                                errors.error().text);
       continue;
     }
-    job.bytes = drawn->bytes;
+    job.held_bytes = drawn->held_bytes;
+    job.touched = *counted;
     job.samples.push_back(drawn->stages);  // the first round: what a stopped sweep can report
     const auto picture = shrunk(subject.picture(), job.knobs.resolution);
     for (const auto r : job.rows) {

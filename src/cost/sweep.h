@@ -9,6 +9,7 @@
 #include "cost/axes.h"
 #include "cost/errors.h"
 #include "cost/subject.h"
+#include "cost/touched.h"
 
 namespace cost {
 
@@ -35,10 +36,11 @@ struct Row {
   Direction direction = Direction::up;
   std::string setting;
   scene::Knobs knobs;
-  Stages stages;      ///< medians
-  double ms = 0;      ///< median of the whole frame
-  double spread = 0;  ///< distance between the quartiles of the whole frame
-  std::uint64_t bytes = 0;
+  Stages stages;                 ///< medians
+  double ms = 0;                 ///< median of the whole frame
+  double spread = 0;             ///< distance between the quartiles of the whole frame
+  Touched touched;               ///< bytes read and written
+  std::uint64_t held_bytes = 0;  ///< memory the frame needs
   Errors errors;
   display::Picture picture;     ///< at the console's resolution
   display::Picture difference;  ///< its distance from the reference, as a heat map

@@ -68,6 +68,8 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
   const auto samples = target.samples.size();
   const auto row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(target.width) +
                    static_cast<std::size_t>(run.x);
+  std::uint64_t written = 0;
+  std::uint64_t blended = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
     if (f.alive[i] == 0) continue;
     constexpr bool textured = M.texture != Texturing::none;
@@ -91,9 +93,31 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
           if constexpr (textured) target.texcoords[row + i] = texcoord(f.u[i], f.v[i]);
         }
       }
-      ++counters.written;
+      ++written;
+      if (semi) ++blended;
     }
   }
+  counters.written += written;
+  counters.blended += blended;
+  if (M.depth && paint.pass == Pass::opaque) counters.stored += written;
+}
+
+/// Bytes that one texel is made of.
+template <Texturing T>
+constexpr std::uint64_t bytes_per_texel(Filter filter) {
+  constexpr std::uint64_t fetch = T == Texturing::direct15 ? 2 : 4;  // a halfword of VRAM, one of the palette
+  constexpr std::uint64_t taps = 4;
+  switch (filter) {
+    case Filter::nearest:
+      return fetch;
+    case Filter::bilinear:
+      return taps * fetch;
+    case Filter::mipmap:
+      return taps * sizeof(Pixel);
+    case Filter::mipmap_linear:
+      break;
+  }
+  return 2 * taps * sizeof(Pixel);
 }
 
 template <Mode M>
@@ -109,6 +133,7 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   counters.covered += static_cast<std::uint64_t>(run.count);
   ++counters.runs[M.index()];
   if constexpr (M.depth) {
+    counters.tested += static_cast<std::uint64_t>(run.count) * target.samples.size();
     if (!test_depth(target, paint, planes, run, f)) return;
   }
   counters.shaded += static_cast<std::uint64_t>(run.count);
@@ -120,6 +145,8 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   if constexpr (textured) {
     interpolate_texture(paint, planes, positions, z, run.count, f);
     fetch_texels<M.texture>(paint, run.count, f);
+    const auto living = run.count - std::count(f.alive.begin(), f.alive.begin() + run.count, std::uint8_t{0});
+    counters.texel_bytes += static_cast<std::uint64_t>(living) * bytes_per_texel<M.texture>(paint.filter);
   }
   interpolate_colour(paint, planes, positions, z, run.count, f);
   std::array<std::int32_t, run_length> fog;

@@ -22,10 +22,15 @@ struct Run {
 
 /// What the kernels did.
 struct Counters {
-  std::uint64_t primitives = 0;  ///< triangles, rectangles, line segments with at least one run, per layer
-  std::uint64_t covered = 0;     ///< pixels with a covered sample
-  std::uint64_t shaded = 0;      ///< pixels whose colour was computed: once, whatever the samples
-  std::uint64_t written = 0;     ///< samples written
+  std::uint64_t primitives = 0;   ///< triangles, rectangles, line segments with at least one run, per layer
+  std::uint64_t covered = 0;      ///< pixels with a covered sample
+  std::uint64_t shaded = 0;       ///< pixels whose colour was computed: once, whatever the samples
+  std::uint64_t written = 0;      ///< samples written
+  std::uint64_t blended = 0;      ///< of these, mixed with what was there
+  std::uint64_t tested = 0;       ///< samples whose depth was compared
+  std::uint64_t stored = 0;       ///< samples whose depth was kept
+  std::uint64_t cleared = 0;      ///< samples set by fills
+  std::uint64_t texel_bytes = 0;  ///< read to make texels: of VRAM, of palettes, of mip levels
   std::array<std::uint64_t, Mode::count> runs{};  ///< calls of each kernel, by Mode::index()
 };
 

@@ -81,6 +81,7 @@ void Canvas::fill(const Primitive& p) {
       for (Layer& layer : layers_) {
         for (int row = 0; row < options_.scale; ++row) {
           std::fill_n(&layer.colour[blocks.row(columns.begin, y, row)], length, colour);
+          counters_.cleared += length;
         }
       }
     }
