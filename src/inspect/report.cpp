@@ -97,6 +97,7 @@ std::vector<WrongPair> find_pairs(const Report& report, const gpu::Trace& trace,
     }
   }
   std::vector<WrongPair> pairs;
+  pairs.reserve(found.size());
   for (auto& [key, pair] : found) pairs.push_back(pair);
   std::stable_sort(pairs.begin(), pairs.end(),
                    [](const WrongPair& a, const WrongPair& b) { return a.pixels > b.pixels; });

@@ -26,8 +26,8 @@ Clipper::Clipper(const Projection& p, bool whole) : near_z_(p.near_z), whole_(wh
              right_of(guard_band.half_width), above(guard_band.half_height), below(guard_band.half_height),
              Plane{{1, 0, 0}, widest},        Plane{{-1, 0, 0}, widest},     Plane{{0, 1, 0}, widest},
              Plane{{0, -1, 0}, widest}};
-  picture_ = {left_of(p.width / 2 + picture_margin), right_of(p.width / 2 + picture_margin),
-              above(p.height / 2 + picture_margin), below(p.height / 2 + picture_margin)};
+  const int half_width = p.width / 2 + picture_margin, half_height = p.height / 2 + picture_margin;
+  picture_ = {left_of(half_width), right_of(half_width), above(half_height), below(half_height)};
 }
 
 ClipVertex Clipper::cut(const Plane& plane, const ClipVertex& a, const ClipVertex& b, double at_a,

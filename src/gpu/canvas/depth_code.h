@@ -55,7 +55,6 @@ class DepthCode {
       const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(saturated));
       return reversed_ ? one_as_float - bits : bits;
     }
-    // NOLINTNEXTLINE(bugprone-incorrect-roundings): never negative, and halves round up
     const auto code = static_cast<std::uint32_t>(saturated * scale_ + 0.5);
     return reversed_ ? static_cast<std::uint32_t>(scale_) - code : code;
   }

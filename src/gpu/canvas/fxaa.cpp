@@ -70,7 +70,6 @@ std::uint32_t mix(std::uint32_t a, std::uint32_t b, double weight) {
   for (unsigned shift = 0; shift < 24; shift += 8) {
     const double va = a >> shift & 255;
     const double vb = b >> shift & 255;
-    // NOLINTNEXTLINE(bugprone-incorrect-roundings): between va and vb, so never negative
     result |= static_cast<std::uint32_t>(va + (vb - va) * weight + 0.5) << shift;
   }
   return result;
