@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 #include <fcntl.h>
+#include <lzma.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -97,12 +98,16 @@ bool is_one_line(const std::string& text) {
 
 constexpr std::uint64_t mib = std::uint64_t{1} << 20;
 
+/// 2 MiB of main RAM with an end marker at address 0.
+std::string empty_list() { return "\xff\xff\xff" + std::string(2 * mib - 3, '\0'); }
+
 }  // namespace
 
 TEST_SUITE("otter") {
   TEST_CASE("a disk that fills up is exit 1 and one line, and the file that was there stays whole") {
     const Folder folder;
     REQUIRE(folder.run({"record", "crates", "-o", "good.psxgpu"}).status == 0);
+    folder.put("ram.bin", empty_list());
     const std::vector<std::vector<std::string>> writers{
         {"render", "crates", "-o", "old"},
         {"record", "crates", "-o", "old"},
@@ -130,8 +135,14 @@ TEST_SUITE("otter") {
 
   TEST_CASE("a pipe that nobody reads any more is exit 1 and one line") {
     const Folder folder;
-    for (const auto& words : std::vector<std::vector<std::string>>{
-             {"list", "--long"}, {"inspect", "crates", "--json", "-"}, {"inspect", "crates"}}) {
+    REQUIRE(folder.run({"record", "crates", "-o", "good.psxgpu"}).status == 0);
+    for (const auto& words : std::vector<std::vector<std::string>>{{"list", "--long"},
+                                                                   {"inspect", "crates", "--json", "-"},
+                                                                   {"inspect", "crates"},
+                                                                   {"effects", "crates"},
+                                                                   {"effects", "crates", "--json", "-"},
+                                                                   {"replay", "good.psxgpu", "--list"},
+                                                                   {"render", "crates", "-o", "x.png"}}) {
       std::array<int, 2> ends{};
       REQUIRE(pipe(ends.data()) == 0);
       close(ends[0]);
@@ -145,13 +156,20 @@ TEST_SUITE("otter") {
   }
 
   TEST_CASE("instances that write the same file at once leave one whole file") {
-    const Folder folder;
-    REQUIRE(folder.run({"render", "crates", "-o", "alone.png"}).status == 0);
-    std::vector<pid_t> children;
-    for (int i = 0; i < 4; ++i) children.push_back(folder.start({"render", "crates", "-o", "shared.png"}));
-    for (const auto child : children) CHECK(folder.end(child).status == 0);
-    CHECK(contents(folder.path / "shared.png") == contents(folder.path / "alone.png"));
-    CHECK_FALSE(folder.has_leftovers());
+    const std::vector<std::vector<std::string>> writers{
+        {"render", "crates", "-o"}, {"record", "crates", "-o"}, {"inspect", "crates", "--json"}};
+    for (auto words : writers) {
+      const Folder folder;
+      CAPTURE(words[0]);
+      words.push_back("alone");
+      REQUIRE(folder.run(words).status == 0);
+      words.back() = "shared";
+      std::vector<pid_t> children;
+      for (int i = 0; i < 4; ++i) children.push_back(folder.start(words));
+      for (const auto child : children) CHECK(folder.end(child).status == 0);
+      CHECK(contents(folder.path / "shared") == contents(folder.path / "alone"));
+      CHECK_FALSE(folder.has_leftovers());
+    }
   }
 
   TEST_CASE("Ctrl-C in a long inspection ends it with exit 130 and a report of the frames that were done") {
@@ -217,17 +235,97 @@ TEST_SUITE("otter") {
   }
 
   TEST_CASE("a dump that unpacks to more than 1 GiB is exit 2 and one line, within bounded memory") {
+    for (const auto compression : {gpu::Compression::zstd, gpu::Compression::xz}) {
+      const Folder folder;
+      const auto frame = gpu::pack(std::vector<std::byte>(64 * mib), compression);
+      std::string bomb;
+      for (int i = 0; i < 24; ++i) bomb.append(reinterpret_cast<const char*>(frame.data()), frame.size());
+      REQUIRE(bomb.size() < mib);
+      folder.put("bomb.psxgpu", bomb);
+      const auto ended = folder.run({"replay", "bomb.psxgpu"});
+      CAPTURE(ended.err);
+      CHECK(ended.status == 2);
+      CHECK(is_one_line(ended.err));
+      CHECK(ended.err.find("unpacks to more than 1073741824 bytes") != std::string::npos);
+      CHECK(ended.peak_bytes < 3 * 1024 * mib);  // twice the limit while the vector grows, and the sanitizers
+    }
+  }
+
+  TEST_CASE("an xz dump that asks for a window of 4 GiB is exit 2 and one line, within bounded memory") {
     const Folder folder;
-    const auto frame = gpu::pack(std::vector<std::byte>(64 * mib), gpu::Compression::zstd);
-    std::string bomb;
-    for (int i = 0; i < 24; ++i) bomb.append(reinterpret_cast<const char*>(frame.data()), frame.size());
-    REQUIRE(bomb.size() < mib);
-    folder.put("bomb.psxgpu.zst", bomb);
-    const auto ended = folder.run({"replay", "bomb.psxgpu.zst"});
+    const auto frame = gpu::pack(std::vector<std::byte>(64), gpu::Compression::xz);
+    std::string file(reinterpret_cast<const char*>(frame.data()), frame.size());
+    // Behind 12 bytes of stream header the block header: its size in words less one, flags, sizes, then
+    // filter LZMA2 (21h), 1 byte of properties, which is the dictionary's size; CRC32 at the end.
+    const std::size_t header_bytes = 4 * (static_cast<std::size_t>(file[12]) + 1),
+                      filter = file.find("\x21\x01", 14);
+    REQUIRE(filter < 12 + header_bytes);
+    file[filter + 2] = 40;  // 4 GiB - 1
+    const auto crc = lzma_crc32(reinterpret_cast<const std::uint8_t*>(file.data()) + 12, header_bytes - 4, 0);
+    for (std::size_t i = 0; i < 4; ++i) file[12 + header_bytes - 4 + i] = static_cast<char>(crc >> (8 * i));
+    folder.put("window.psxgpu", file);
+    const auto ended = folder.run({"replay", "window.psxgpu"});
+    CAPTURE(ended.err);
     CHECK(ended.status == 2);
     CHECK(is_one_line(ended.err));
-    CHECK(ended.err.find("unpacks to more than 1073741824 bytes") != std::string::npos);
-    CHECK(ended.peak_bytes < 3 * 1024 * mib);  // twice the limit while the vector grows, and the sanitizers
+    CHECK(ended.err.find("needs over 256 MiB to unpack") != std::string::npos);
+    CHECK(ended.peak_bytes < 512 * mib);
+  }
+
+  TEST_CASE("a polyline without an end is exit 2 and one line; one of a million segments is drawn") {
+    const Folder folder;
+    std::string points;
+    for (std::uint32_t i = 0; i < 1'000'000; ++i) {
+      const std::uint32_t word = (i % 320) | (i * 7 % 240) << 16;
+      for (unsigned shift = 0; shift < 32; shift += 8) points += static_cast<char>(word >> shift);
+    }
+    const auto dump = [&](const std::string& tail) {
+      const auto words = 1 + (points.size() + tail.size()) / 4;
+      std::string file("PSXGPUDUMPv1r1\0\0\1\0\0\6\2\0\0\0", 24);
+      for (unsigned shift = 0; shift < 24; shift += 8) file += static_cast<char>(words >> shift);
+      return file + std::string("\0\xff\xff\xff\x48", 5) + points + tail;
+    };
+    folder.put("endless.psxgpu", dump(""));
+    folder.put("long.psxgpu", dump("UUUU"));
+    const auto endless = folder.run({"replay", "endless.psxgpu", "--vram", "x.png"});
+    CAPTURE(endless.err);
+    CHECK(endless.status == 2);
+    CHECK(is_one_line(endless.err));
+    CHECK(endless.err.find("polyline that begins here has no end") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder.path / "x.png"));
+    const auto drawn = folder.run({"replay", "long.psxgpu", "--vram", "x.png"});
+    CAPTURE(drawn.err);
+    CHECK(drawn.status == 0);
+    CHECK(drawn.peak_bytes < 512 * mib);
+  }
+
+  TEST_CASE(
+      "a frame that fills main RAM is split by bucket; a bucket that does not fit alone is exit 1 and one "
+      "line") {
+    const Folder folder;
+    {
+      // 490,000 triangles of 5 words each are 9.8 million bytes.
+      constexpr int n = 700;
+      std::ofstream file(folder.path / "full.obj", std::ios::binary);
+      for (int i = 0; i < n; ++i) {
+        const double x = i % 30, y = i / 30;
+        file << "v " << x << " " << y << " 0\nv " << x + 1 << " " << y << " 0\nv " << x << " " << y + 1
+             << " 0\n";
+      }
+      for (int k = 0; k < n; ++k) {
+        for (int i = 0; i < n; ++i) file << "f " << 3 * i + 1 << " " << 3 * i + 2 << " " << 3 * i + 3 << "\n";
+      }
+    }
+    const auto split = folder.run({"render", "full.obj", "-o", "x.png"});
+    CAPTURE(split.err);
+    CHECK(split.status == 0);
+    CHECK(split.peak_bytes < 1024 * mib);
+    const auto refused = folder.run({"render", "full.obj", "-o", "y.png", "--buckets", "1"});
+    CAPTURE(refused.err);
+    CHECK(refused.status == 1);
+    CHECK(is_one_line(refused.err));
+    CHECK(refused.err.find("bytes of main RAM") != std::string::npos);
+    CHECK_FALSE(fs::exists(folder.path / "y.png"));
   }
 
   TEST_CASE("a model of ten million faces is exit 2 and one line, within bounded memory") {
@@ -275,5 +373,35 @@ TEST_SUITE("otter") {
     CHECK(ended.status == 2);
     CHECK(is_one_line(ended.err));
     CHECK(ended.peak_bytes < 512 * mib);
+  }
+
+  TEST_CASE("X3D groups that use each other, doubling forty times, are exit 2 and one line") {
+    const Folder folder;
+    std::string text =
+        "<X3D><Scene><Group DEF='g0'><Shape><IndexedFaceSet coordIndex='0 1 2 -1'>"
+        "<Coordinate point='0 0 0 1 0 0 0 1 0'/></IndexedFaceSet></Shape></Group>";
+    for (int i = 1; i < 40; ++i) {
+      const auto use = "<Group USE='g" + std::to_string(i - 1) + "'/>";
+      text += "<Group DEF='g" + std::to_string(i) + "'>" + use + use + "</Group>";
+    }
+    folder.put("doubling.x3d", text + "</Scene></X3D>");
+    const auto ended = folder.run({"render", "doubling.x3d", "-o", "x.png"});
+    CAPTURE(ended.err);
+    CHECK(ended.status == 2);
+    CHECK(is_one_line(ended.err));
+    CHECK(ended.err.find("1,000,000 elements after USE") != std::string::npos);
+    CHECK(ended.peak_bytes < 512 * mib);
+  }
+
+  TEST_CASE("a canvas of five gigabytes is refused with one line before it is allocated") {
+    const Folder folder;
+    const auto ended = folder.run({"render", "crates", "-o", "x.png", "--resolution", "8", "--antialias",
+                                   "random-64", "--size", "640x480"});
+    CAPTURE(ended.err);
+    CHECK(ended.status != 0);
+    CHECK(is_one_line(ended.err));
+    CHECK(ended.err.find("2147483648") != std::string::npos);
+    CHECK(ended.peak_bytes < 512 * mib);
+    CHECK_FALSE(fs::exists(folder.path / "x.png"));
   }
 }
