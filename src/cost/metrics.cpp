@@ -138,10 +138,10 @@ Rgba heat(int difference) {
   const double t = std::sqrt(std::clamp(difference, 0, 255) / 255.0);
   std::size_t i = 1;
   while (i + 1 < stops.size() && t > stops[i].at) ++i;
-  const auto& [low, from] = stops[i - 1];
-  const auto& [high, to] = stops[i];
-  const auto channel = [&, share = (t - low) / (high - low)](std::size_t c) {
-    return static_cast<std::uint8_t>(from[c] + (to[c] - from[c]) * share + 0.5);
+  const Stop &from = stops[i - 1], &to = stops[i];
+  const double share = (t - from.at) / (to.at - from.at);
+  const auto channel = [&](std::size_t c) {
+    return static_cast<std::uint8_t>(from.rgb[c] + (to.rgb[c] - from.rgb[c]) * share + 0.5);
   };
   return {channel(0), channel(1), channel(2)};
 }
