@@ -37,8 +37,8 @@ inline scene::Scene slices() {
   return s;
 }
 
-/// A floor that runs away, with a checkerboard on it and fog over it if asked.
-inline scene::Scene runway(bool fog) {
+/// A floor that runs away from z = -near to -40, with a checkerboard on it and fog over it if asked.
+inline scene::Scene runway(bool fog, float half_width = 4, float near = 1.5F) {
   scene::Scene s;
   s.name = "runway";
   scene::World& w = s.world;
@@ -56,7 +56,10 @@ inline scene::Scene runway(bool fog) {
   material.double_sided = true;
   w.materials = {material};
   scene::Mesh mesh;
-  mesh.positions = {{-4, -1.5F, -1.5F}, {4, -1.5F, -1.5F}, {4, -1.5F, -40}, {-4, -1.5F, -40}};
+  mesh.positions = {{-half_width, -1.5F, -near},
+                    {half_width, -1.5F, -near},
+                    {half_width, -1.5F, -40},
+                    {-half_width, -1.5F, -40}};
   scene::Face face;
   face.vertex = {0, 1, 2, 3};
   face.uv = {glm::vec2{0, 1}, {1, 1}, {1, 0}, {0, 0}};
