@@ -58,16 +58,24 @@ TEST_SUITE("inspect") {
     CHECK(fine.report().wrong_pixels() == 0);
   }
 
-  // Rounding keeps the order of depths, so this takes a depth stage that errs: the keys are set by hand.
+  // Rounding alone keeps the order of depths. But the rasterizer steps along a row with depths that were cut
+  // to 18 bits of fraction at the corners, and just beside the point where rounding goes up that is enough.
+  // 16 bits, near 16, far 65535: z is stored as round(65535 / 65519 * (1 - 16 / z) * 65535).
+  //   slanted, x = 0: z 62788.66357  65534.29999922   cut to 65534.29999542
+  //            x = 2: z 64329.14136  65534.70000455   cut to 65534.70000076
+  //            x = 1: z 63549.56832  65534.50000188   stepped to 65534.49999809: stored as 65534
+  //   flat,    x = 1: z 63549.56128  65534.50000005   cut to 65534.50000000: stored as 65535, and yet it is
+  //   nearer
   TEST_CASE("DepthPrecision: stored depths that have the wrong order") {
-    Stage stage(options(gpu::DepthFormat::bits24, 16, 65535));
-    stage.quad(0, 0, 4, 2, 100);
-    stage.quad(0, 0, 4, 2, 200);
-    for (gpu::Event& event : stage.trace().history) {
-      event.depth = event.draw == 0 ? 8 : 7;
-      event.rejected = false;
-    }
-    CHECK(is_exactly(stage.report(), Cause::depth_precision, 8));
+    Stage stage(options(gpu::DepthFormat::bits16, 16, 65535));
+    stage.raw_polygon({{1, 0, 260299003}, {2, 0, 260299003}, {1, 1, 260299003}, {2, 1, 260299003}}, {});
+    stage.raw_polygon({{0, 0, 257182366}, {2, 0, 263492163}, {0, 1, 257182366}, {2, 1, 263492163}}, {});
+    const auto report = stage.report();
+    CHECK(is_exactly(report, Cause::depth_precision, 1));
+    REQUIRE(report.wrong.size() == 1);
+    CHECK(report.wrong[0].pixel == 1);
+    CHECK(report.wrong[0].winner == 1);
+    CHECK(report.wrong[0].owner == 0);
   }
 
   TEST_CASE("DepthPrecision is absent: stored depths in the right order") {
