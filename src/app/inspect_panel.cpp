@@ -73,8 +73,7 @@ void draw_unwatched(WindowState& state, const Inspection& inspection) {
   std::string names;
   for (const auto* knob : inspection.unwatched()) names.append(names.empty() ? "" : ", ").append(knob->name);
   ImGui::TextWrapped(
-      "This frame is drawn on the accurate canvas beside VRAM (%s), where nobody notes who wrote which "
-      "pixel.",
+      "This frame has more samples than the console has pixels (%s), and nobody notes who wrote which.",
       names.c_str());
   if (!ImGui::Button("inspect it with these as on the console")) return;
   const scene::Knobs console;

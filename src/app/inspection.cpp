@@ -90,14 +90,13 @@ scene::Result<bool> Inspection::update(const WindowState& state) {
   }
   unwatched_.clear();
   if (!drawn) return tl::make_unexpected(drawn.error());
-  unwatched_ = machine_->canvas_knobs(knobs_);
+  unwatched_ = machine_->unwatched_knobs(knobs_);
   return true;
 }
 
 display::Picture Inspection::after(int count) const {
   if (count < 0 || count >= draws()) return machine_->picture();
-  const auto shown = machine_->gpu().vram().pixels();
-  std::vector<std::uint16_t> vram(shown.begin(), shown.end());
+  auto vram = machine_->vram();
   const auto first_undone = begins_[static_cast<std::size_t>(count)];
   for (std::size_t i = trace_.history.size(); i > first_undone; --i) {
     const auto& event = trace_.history[i - 1];
@@ -127,7 +126,7 @@ std::vector<std::string> Inspection::history(int x, int y) const {
 }
 
 display::Picture Inspection::map(Map map) const {
-  const auto vram = machine_->gpu().vram().pixels();
+  const auto vram = machine_->vram();
   const int height = machine_->picture().height;
   switch (map) {
     case Map::none:

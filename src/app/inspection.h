@@ -26,8 +26,8 @@ class Inspection {
   /// Draws the frame of `state` again if it is another one. False: it is the same.
   scene::Result<bool> update(const WindowState& state);
 
-  /// The knobs that make the frame one that is drawn beside VRAM, where nothing is watched: without them
-  /// there is something to tell. Empty: the frame was watched.
+  /// The knobs that make the frame one of more samples than VRAM has pixels, where nothing is noted: without
+  /// them there is something to tell. Empty: the frame was watched.
   [[nodiscard]] const std::vector<const scene::KnobInfo*>& unwatched() const { return unwatched_; }
 
   /// Draws that wrote a pixel, in the order made; a z-buffer's second pass counts again.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "gpu/canvas/canvas.h"
 #include "scene/accurate.h"
 #include "scene/pipeline.h"
 
@@ -55,14 +56,23 @@ scene::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::
   return stats;
 }
 
-std::vector<const scene::KnobInfo*> Machine::canvas_knobs(const scene::Knobs& knobs) const {
+std::vector<const scene::KnobInfo*> Machine::unwatched_knobs(const scene::Knobs& knobs) const {
   std::vector<const scene::KnobInfo*> asking;
   for (const auto& knob : scene::knob_table()) {
     scene::Knobs alone;
     knob.set(alone, knob.get(knobs));
-    if (scene::canvas_options(alone, builder_->world(), builder_->units_per_world())) asking.push_back(&knob);
+    const auto options = scene::canvas_options(alone, builder_->world(), builder_->units_per_world());
+    if (options && !options->can_be_watched()) asking.push_back(&knob);
   }
   return asking;
+}
+
+std::vector<std::uint16_t> Machine::vram() const {
+  const auto pixels = gpu_.vram().pixels();
+  std::vector<std::uint16_t> copy(pixels.begin(), pixels.end());
+  const auto* canvas = gpu_.canvas();
+  if (canvas != nullptr && canvas->options().can_be_watched()) canvas->put_into(copy);
+  return copy;
 }
 
 void Machine::fly(CameraOffset& camera, glm::vec3 step) const {

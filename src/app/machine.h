@@ -41,8 +41,11 @@ class Machine {
   /// Moves `camera` by `step` in the axes of the picture last drawn (see app::fly).
   void fly(CameraOffset& camera, glm::vec3 step) const;
 
-  /// The rows of scene::knob_table() whose settings ask for a canvas beside VRAM, which is not watched.
-  [[nodiscard]] std::vector<const scene::KnobInfo*> canvas_knobs(const scene::Knobs& knobs) const;
+  /// The rows of scene::knob_table() whose settings draw the frame with more samples than VRAM has pixels:
+  /// then nothing is noted.
+  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) const;
+  /// VRAM after draw(), 1024 x 512. A frame drawn on a canvas that can be watched is in it, in 16 bits.
+  [[nodiscard]] std::vector<std::uint16_t> vram() const;
   /// The scene with its own animation: a second machine may be made from it.
   [[nodiscard]] scene::Scene scene_as_given() const;
   [[nodiscard]] const std::vector<std::string>& report() const { return builder_->report(); }

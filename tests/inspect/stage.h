@@ -16,7 +16,8 @@ namespace tests {
 
 struct Corner {
   int x = 0, y = 0;
-  std::uint32_t z = 0;  ///< whole view-space units
+  std::uint32_t z = 0;          ///< whole view-space units
+  std::uint8_t fx = 0, fy = 0;  ///< fractions, 1/256 pixel: they count on a canvas alone
 };
 
 struct Look {
@@ -61,6 +62,9 @@ class Stage {
     for (const Corner& corner : corners) {
       p.xy[i] = {static_cast<std::int16_t>(corner.x), static_cast<std::int16_t>(corner.y)};
       p.uv[i] = look.texel.value_or(ot::Uv{});
+      depth.fx[i] = corner.fx;
+      depth.fy[i] = corner.fy;
+      depth.has_fractions = depth.has_fractions || corner.fx != 0 || corner.fy != 0;
       depth.z[i++] = corner.z * unit;
     }
     p.rgb[0] = look.rgb;

@@ -68,8 +68,8 @@ Canvas::Canvas(Options options)
 }
 
 void Canvas::begin_frame(int x, int y) {
-  grid_.x = x;
-  grid_.y = y;
+  grid_.x = watch_.x = x;
+  grid_.y = watch_.y = y;
   for (Layer& layer : layers_) std::ranges::fill(layer.depth, DepthCode::empty);
   std::ranges::fill(ids_, 0);
   queue_.clear();
@@ -91,6 +91,8 @@ bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clu
     return false;
   }
   const Paint how = paint(p, vram, clut, id);
+  watch_.draw = id - 1;
+  watch_.half = 0;
   switch (p.kind) {
     case Kind::polygon:
       if (options_.depth && p.has_depth && p.is_semi_transparent()) {
@@ -120,7 +122,17 @@ void Canvas::draw_queue() {
   for (const Queued& q : std::exchange(queue_, {})) {
     Paint how = paint(q.primitive, *q.vram, q.clut.data(), q.id);
     how.pass = Pass::semi_transparent;
+    watch_.draw = q.id - 1;
     polygon(q.primitive, how, clip(q.primitive.state));
+  }
+}
+
+void Canvas::put_into(std::span<std::uint16_t> vram) const {
+  assert(options_.can_be_watched() && vram.size() == Vram::size);
+  const auto& colour = layers_[0].colour;
+  for (std::size_t i = 0; i < colour.size(); ++i) {
+    const int x = static_cast<int>(i) % options_.width, y = static_cast<int>(i) / options_.width;
+    vram[Vram::offset(grid_.x + x, grid_.y + y)] = to_16_bits(colour[i]);
   }
 }
 
@@ -137,6 +149,7 @@ Target Canvas::target(std::size_t index) {
     t.ids = ids_.data();
     t.texcoords = texcoords_.data();
   }
+  if (watch_.trace != nullptr && options_.can_be_watched()) t.watch = &watch_;
   t.samples =
       sample_points_.empty() ? std::span<const Point>(&offset, 1) : std::span<const Point>(sample_points_);
   return t;
@@ -197,6 +210,7 @@ Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* c
 
 void Canvas::polygon(const Primitive& p, const Paint& paint, const Clip& clip) {
   const auto& v = p.vertices;
+  watch_.half = 0;
   triangle(p, {&v[0], &v[1], &v[2]}, paint, clip);
   // A flat quad has the colour of its first vertex on both halves.
   if (p.is_quad()) {
@@ -206,6 +220,7 @@ void Canvas::polygon(const Primitive& p, const Paint& paint, const Clip& clip) {
       first.g = v[0].g;
       first.b = v[0].b;
     }
+    watch_.half = 1;
     triangle(p, {&first, &v[2], &v[3]}, paint, clip);
   }
 }
@@ -234,7 +249,7 @@ void for_each_run(Range columns, F&& f) {
 }
 
 Mode mode_for(const Target& target, Mode mode) {
-  mode.trace = target.ids != nullptr;
+  mode.trace = target.ids != nullptr || target.watch != nullptr;
   return mode;
 }
 

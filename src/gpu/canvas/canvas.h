@@ -55,6 +55,13 @@ class Canvas {
   /// False: it does not, the primitive is VRAM's. `clut`: 256 entries, read during the call.
   /// `id` is stored as the pixels' writer.
   bool draw(const Primitive& primitive, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
+  /// From the next draw() on writes are noted in `trace`, as pixels of VRAM and in 16 bits; nullptr ends it.
+  /// It must live until the frame has ended. Nothing is noted unless options().can_be_watched().
+  void watch(Trace* trace) { watch_.trace = trace; }
+  /// Needs options().can_be_watched(): puts the picture, in 16 bits, where it lies in VRAM. `vram`: 1024 x
+  /// 512.
+  void put_into(std::span<std::uint16_t> vram) const;
+
   /// VRAM was changed by a fill, copy or upload: does the same to the canvas where it was the target, and
   /// forgets mip levels. Call after VRAM is changed.
   void transfer(const Primitive& primitive, const Vram& vram);
@@ -120,6 +127,7 @@ class Canvas {
   MipCache mips_;
   WithoutDepth without_depth_;
   Counters counters_;
+  Watch watch_;
 };
 
 }  // namespace gpu::canvas

@@ -62,9 +62,38 @@ constexpr std::uint32_t texcoord(std::int32_t u, std::int32_t v) {
   return (static_cast<std::uint32_t>(u + 128) & 0xffff) | static_cast<std::uint32_t>(v + 128) << 16;
 }
 
+/// Whether the depth test alone stopped pixel i, which a watcher is told. Without one there is no code for
+/// it.
+template <Mode M>
+bool is_rejected([[maybe_unused]] const std::uint8_t* rejected, [[maybe_unused]] std::size_t i) {
+  if constexpr (M.trace && M.depth) return rejected != nullptr && rejected[i] != 0;
+  return false;
+}
+
+/// A watcher is told of pixels that only the depth test stops: they live on, marked in `rejected`. nullptr
+/// when nobody watches. `rejected` comes in as what lived before the test.
+const std::uint8_t* keep_rejected(const Target& target, const Run& run, Fragments& f,
+                                  std::array<std::uint8_t, run_length>& rejected) {
+  if (target.watch == nullptr) return nullptr;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
+    const std::uint8_t before = rejected[i];
+    rejected[i] = static_cast<std::uint8_t>(before & ~f.alive[i]);
+    f.alive[i] = before;
+  }
+  return rejected.data();
+}
+
+/// What a watcher is told: a watched canvas has one sample a pixel, and its pixels are those of VRAM.
+void note(const Watch& watch, const Run& run, std::size_t i, Event event) {
+  event.pixel =
+      static_cast<std::uint32_t>(Vram::offset(watch.x + run.x + static_cast<int>(i), watch.y + run.y));
+  watch.note(event);
+}
+
 /// Blends, stores colour, mask bit, depth and id of every living sample.
 template <Mode M>
-void write(const Target& target, const Paint& paint, const Run& run, const Fragments& f, Counters& counters) {
+void write(const Target& target, const Paint& paint, const Run& run, const Fragments& f,
+           const std::uint8_t* rejected, Counters& counters) {
   const auto samples = target.samples.size();
   const auto row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(target.width) +
                    static_cast<std::size_t>(run.x);
@@ -72,6 +101,7 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
   std::uint64_t blended = 0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
     if (f.alive[i] == 0) continue;
+    const bool is_lost = is_rejected<M>(rejected, i);
     constexpr bool textured = M.texture != Texturing::none;
     const Pixel texel = textured ? f.texel[i] : texel_solid | texel_semi;
     if ((texel & texel_solid) == 0) continue;
@@ -83,12 +113,25 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
       const auto at = (row + i) * samples + s;
       Pixel& pixel = target.colour[at];
       if (paint.mask_test && (pixel & mask_bit) != 0) continue;
-      pixel = (semi ? blend<M.blend>(pixel, f.colour[i], paint.quantise) : f.colour[i]) | mask;
+      const Pixel mixed = (semi ? blend<M.blend>(pixel, f.colour[i], paint.quantise) : f.colour[i]) | mask;
+      if constexpr (M.trace) {
+        if (target.watch != nullptr) {
+          note(*target.watch, run, i,
+               {.depth = M.depth ? f.keys[i] : 0,
+                .before = to_16_bits(pixel),
+                .after = to_16_bits(is_lost ? pixel : mixed),
+                .fragment = to_16_bits(f.colour[i] | mask),
+                .blended = semi,
+                .rejected = is_lost});
+        }
+        if (is_lost) continue;
+      }
+      pixel = mixed;
       if constexpr (M.depth) {
         if (paint.pass == Pass::opaque) target.depth[at] = f.keys[i * samples + s];
       }
       if constexpr (M.trace) {
-        if (s == 0) {
+        if (s == 0 && target.ids != nullptr) {
           target.ids[row + i] = paint.id;
           if constexpr (textured) target.texcoords[row + i] = texcoord(f.u[i], f.v[i]);
         }
@@ -132,9 +175,14 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   }
   counters.covered += static_cast<std::uint64_t>(run.count);
   ++counters.runs[M.index()];
+  const std::uint8_t* rejected = nullptr;
+  [[maybe_unused]] std::array<std::uint8_t, run_length> before;
   if constexpr (M.depth) {
     counters.tested += static_cast<std::uint64_t>(run.count) * target.samples.size();
-    if (!test_depth(target, paint, planes, run, f)) return;
+    if constexpr (M.trace) std::copy_n(f.alive.begin(), run.count, before.begin());
+    const bool any = test_depth(target, paint, planes, run, f);
+    if constexpr (M.trace) rejected = keep_rejected(target, run, f, before);
+    if (!any && rejected == nullptr) return;
   }
   counters.shaded += static_cast<std::uint64_t>(run.count);
 
@@ -152,7 +200,7 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   std::array<std::int32_t, run_length> fog;
   if (paint.fog != nullptr) fog_factors(*paint.fog, planes, positions, fog);
   shade<textured>(paint, run, fog, f);
-  write<M>(target, paint, run, f, counters);
+  write<M>(target, paint, run, f, rejected, counters);
 }
 
 using Kernel = void (*)(const Target&, const Paint&, const Planes&, const Run&, Counters&);

@@ -53,6 +53,11 @@ struct Options {
   /// Temporal accumulation: every frame samples its pixels at the next jitter. Never with layers or samples.
   bool temporal = false;
 
+  /// One sample for each pixel of VRAM, at the pixel's own sample point: writes can be noted as pixels of
+  /// VRAM.
+  [[nodiscard]] bool can_be_watched() const {
+    return scale == 1 && layers.size() == 1 && layers[0] == Point{} && samples.empty() && !temporal;
+  }
   bool operator==(const Options&) const = default;
 };
 

@@ -10,6 +10,7 @@
 #include "gpu/canvas/options.h"
 #include "gpu/state.h"
 #include "gpu/vram.h"
+#include "gpu/watch.h"
 
 namespace gpu::canvas {
 
@@ -19,6 +20,12 @@ namespace gpu::canvas {
 using Pixel = std::uint32_t;
 inline constexpr Pixel mask_bit = 1U << 24;
 inline constexpr Pixel texel_solid = 1U << 24, texel_semi = 1U << 25;
+
+/// In the 16 bits of a console pixel.
+constexpr std::uint16_t to_16_bits(Pixel p) {
+  return static_cast<std::uint16_t>((p >> 3 & 31) | (p >> 11 & 31) << 5 | (p >> 19 & 31) << 10 |
+                                    ((p & mask_bit) != 0 ? 0x8000U : 0U));
+}
 
 enum class Texturing : std::uint8_t { none, clut4, clut8, direct15 };
 enum class Blending : std::uint8_t { opaque, average, add, subtract, add_quarter };
@@ -49,12 +56,18 @@ enum class Pass : std::uint8_t {
   semi_transparent,  ///< z-buffer, second pass: test only
 };
 
+/// Where a watched canvas notes its writes, and where in VRAM its first pixel stands for.
+struct Watch : gpu::Watch {
+  int x = 0, y = 0;
+};
+
 /// The picture: one layer of a Canvas. Sample s of pixel (x, y) is at (y * width + x) * samples + s.
 struct Target {
   Pixel* colour = nullptr;
   std::uint32_t* depth = nullptr;      ///< keys, nearer is smaller; nullptr without a z-buffer
   std::uint32_t* ids = nullptr;        ///< per pixel; nullptr when nobody asked
   std::uint32_t* texcoords = nullptr;  ///< with ids: u + 128 | (v + 128) << 16, 8.8
+  const Watch* watch = nullptr;        ///< nullptr when nobody watches
   int width = 0, height = 0;
   Point offset{};                  ///< of the layer
   std::span<const Point> samples;  ///< one or more

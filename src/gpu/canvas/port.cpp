@@ -14,7 +14,10 @@ void Gpu::set_canvas(const std::optional<canvas::Options>& options) {
 }
 
 /// Needs canvas_.
-bool Gpu::draw_on_canvas() { return canvas_->draw(current_, vram_, clut_.entries(), current_draw() + 1); }
+bool Gpu::draw_on_canvas() {
+  canvas_->watch(trace_);
+  return canvas_->draw(current_, vram_, clut_.entries(), current_draw() + 1);
+}
 
 /// Needs canvas_.
 void Gpu::transfer_to_canvas() { canvas_->transfer(current_, vram_); }
