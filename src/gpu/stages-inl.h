@@ -435,7 +435,8 @@ std::size_t compute_keys(const DepthJob& depth, std::span<const Span> spans, Key
 
 /// The keys of the first spans, as many as there is room for: at least one. Returns how many. Not a stage: it
 /// would be a large part of every kernel with depth.
-static HWY_NOINLINE std::size_t compute_keys(const DepthJob& depth, std::span<const Span> spans, KeyBatch& keys) {
+static HWY_NOINLINE std::size_t compute_keys(const DepthJob& depth, std::span<const Span> spans,
+                                             KeyBatch& keys) {
   if (depth.constants->is_linear) {
     return depth.constants->is_float ? compute_keys<true, true>(depth, spans, keys)
                                      : compute_keys<true, false>(depth, spans, keys);

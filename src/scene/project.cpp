@@ -57,8 +57,9 @@ struct FloatingMap {
     const Real scale = static_cast<Real>(projection.h) / view.z;
     // 16.16 as the GTE's sums, so that fractions mean the same.
     const auto fixed = [](Real v) { return floor_saturated<std::int32_t>(static_cast<double>(v) * 65536); };
-    const std::int32_t x = fixed(static_cast<Real>(projection.width / 2) + view.x * scale);
-    const std::int32_t y = fixed(static_cast<Real>(projection.height / 2) + view.y * scale);
+    const int centre_x = projection.width / 2, centre_y = projection.height / 2;  // as OFX and OFY
+    const std::int32_t x = fixed(static_cast<Real>(centre_x) + view.x * scale);
+    const std::int32_t y = fixed(static_cast<Real>(centre_y) + view.y * scale);
     constexpr std::int32_t limit = 1023 << 16;
     if (x < -limit || x > limit || y < -limit || y > limit) return false;
     out.sxy = {static_cast<std::int16_t>(x >> 16), static_cast<std::int16_t>(y >> 16)};

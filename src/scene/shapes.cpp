@@ -1,5 +1,6 @@
 #include "scene/shapes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -32,6 +33,7 @@ SinCos at_turns(double turns) { return {sin_turns(turns), cos_turns(turns)}; }
 // right), so that the picture reads from left to right outside.
 std::vector<SinCos> circle(int slices) {
   std::vector<SinCos> points;
+  points.reserve(static_cast<std::size_t>(std::max(slices, 0)));
   for (int i = 0; i < slices; ++i) points.push_back(at_turns(static_cast<double>(i) / slices));
   return points;
 }

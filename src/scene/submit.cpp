@@ -55,7 +55,7 @@ ot::Polygon polygon_of(const Primitive& p) {
     out.rgb[k] = {c.colour.r, c.colour.g, c.colour.b};
     out.uv[k] = c.uv;
   }
-  if (out.textured) {
+  if (p.material->texture != nullptr) {
     out.clut = p.material->texture->clut;
     out.texpage = p.material->texpage;
   }

@@ -139,7 +139,7 @@ class Grid {
       // Both ends of a row lie on edges of the face; what is between depends on them.
       const int last = quad ? n : n - row;
       const Point left = on_edge(0, quad ? 3 : 2, row);
-      const Point right = quad ? on_edge(1, 2, row) : on_edge(1, 2, row);
+      const Point right = on_edge(1, 2, row);
       at(0, row) = left;
       if (last > 0) at(last, row) = right;
       for (int column = 1; column < last; ++column)
@@ -214,14 +214,14 @@ int period_of(const TexelAxis& axis, const Polygon& polygon, int which, bool& to
   return axis.periods();
 }
 
-// The multiples of `period` strictly between two coordinates.
+// The multiples of `period` strictly between two coordinates, whose magnitude period_of() limits.
 std::vector<float> lines_between(float a, float b, int period) {
   std::vector<float> out;
   const auto step = static_cast<float>(period);
   const float low = std::min(a, b);
   const float high = std::max(a, b);
-  for (float line = std::ceil(low / step) * step; line < high; line += step)
-    if (line > low) out.push_back(line);
+  for (int i = static_cast<int>(std::floor(low / step)) + 1; static_cast<float>(i) * step < high; ++i)
+    out.push_back(static_cast<float>(i) * step);
   return out;
 }
 

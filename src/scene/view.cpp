@@ -24,7 +24,8 @@ Projection projection_of(const Camera& camera, int width, int height, double uni
   p.width = width;
   p.height = height;
   const double tangent = camera.tan_half_fov > 0 ? static_cast<double>(camera.tan_half_fov) : 1.0;
-  p.h = std::max<std::uint16_t>(1, round_saturated<std::uint16_t>(height / 2 / tangent));
+  const int half_height = height / 2;
+  p.h = std::max<std::uint16_t>(1, round_saturated<std::uint16_t>(half_height / tangent));
   p.stretch_x = width * 3.0 / (height * 4.0);
   p.near_z = std::clamp(round_saturated<std::int32_t>(camera.near_z * units), p.h / 2 + 1, 65534);
   return p;

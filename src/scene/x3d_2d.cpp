@@ -85,6 +85,7 @@ class Drawing {
 
 std::vector<glm::vec3> flat(const std::vector<glm::vec2>& points) {
   std::vector<glm::vec3> out;
+  out.reserve(points.size());
   for (const glm::vec2& p : points) out.emplace_back(p, 0);
   return out;
 }

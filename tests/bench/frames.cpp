@@ -42,7 +42,7 @@ double fill_ms() {
 
 void fill(benchmark::State& state) {
   gpu::Gpu gpu;
-  for (auto _ : state) fill_once(gpu);
+  while (state.KeepRunning()) fill_once(gpu);
 }
 
 // A torus of 264 x 265 quads, lit: 69,960 faces that share their vertices.
@@ -94,7 +94,7 @@ void frames(benchmark::State& state, const scene::Scene& scene, const scene::Kno
   scene::FrameStats sum;
   std::uint32_t number = 0;
   double best = 1e9;
-  for (auto _ : state) {
+  while (state.KeepRunning()) {
     const auto start = Clock::now();
     const auto stats = scene::render_frame(builder, scene::frame_time(number++ % 600), knobs, ram, gpu);
     best = std::min(best, std::chrono::duration<double, std::milli>(Clock::now() - start).count());

@@ -246,8 +246,8 @@ int calls_for(const Row& row) {
 
 void measure(std::vector<Row>& rows, int rounds) {
   using Clock = std::chrono::steady_clock;
-  std::vector<int> calls;
-  for (const Row& row : rows) calls.push_back(calls_for(row));
+  std::vector<int> calls(rows.size());
+  std::transform(rows.begin(), rows.end(), calls.begin(), calls_for);
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const std::uint64_t first_tick = ticks();
