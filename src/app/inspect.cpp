@@ -45,6 +45,7 @@ struct Options {
 struct FrameRange {
   std::uint32_t first = 0, last = 0;
 };
+constexpr std::uint32_t highest_number = 1'000'000'000;
 
 // One frame drawn and watched: what the report and the pictures are made from.
 struct Watched {
@@ -57,7 +58,7 @@ class Source {
  public:
   virtual ~Source() = default;
   virtual scene::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) = 0;
-  [[nodiscard]] virtual std::uint32_t first_frame() const = 0;
+  [[nodiscard]] virtual FrameRange frames() const = 0;
 };
 
 inspect::Order order_of(const scene::Knobs& knobs) {
@@ -86,7 +87,7 @@ class SceneSource : public Source {
     add_lint(*stats, watched.report);
     return watched;
   }
-  [[nodiscard]] std::uint32_t first_frame() const override { return 0; }
+  [[nodiscard]] FrameRange frames() const override { return {0, highest_number}; }
 
  private:
   void add_lint(const scene::FrameStats& stats, inspect::Report& report) const {
@@ -124,11 +125,6 @@ class DumpSource : public Source {
 
   // Frame N of a dump lies between its VSync packets N-1 and N. Frames must be asked for in ascending order.
   scene::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
-    if (number < 1 || (number > dump_.vsyncs && !(number == 1 && dump_.vsyncs == 0))) {
-      return scene::fail(name_ + ": --frame " + std::to_string(number) + ": expected 1.." +
-                         std::to_string(std::max<std::uint64_t>(1, dump_.vsyncs)) +
-                         ", the frames of this dump");
-    }
     play_until(number - 1);
     gpu_.set_trace(&trace);
     const auto end = play_until(number);
@@ -149,7 +145,10 @@ class DumpSource : public Source {
         {"links", "", "not available: a dump holds no list, only the words it sent"});
     return watched;
   }
-  [[nodiscard]] std::uint32_t first_frame() const override { return 1; }
+  // Without a VSync packet the whole dump is one frame.
+  [[nodiscard]] FrameRange frames() const override {
+    return {1, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(dump_.vsyncs, 1, highest_number))};
+  }
 
  private:
   // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are
@@ -177,11 +176,11 @@ class DumpSource : public Source {
 std::optional<std::uint32_t> number(std::string_view text) {
   std::uint32_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || value > 1'000'000'000) return std::nullopt;
+  if (error != std::errc{} || end != text.data() + text.size() || value > highest_number) return std::nullopt;
   return value;
 }
 
-scene::Result<FrameRange> frames_of(const Options& options, std::uint32_t first) {
+scene::Result<FrameRange> asked_frames(const Options& options, std::uint32_t first) {
   if (!options.frames.empty()) {
     if (!options.frame.empty()) return scene::fail("--frames: expected no --frame beside it");
     const auto dots = options.frames.find("..");
@@ -198,6 +197,17 @@ scene::Result<FrameRange> frames_of(const Options& options, std::uint32_t first)
   const auto only = number(options.frame);
   if (!only) return scene::fail("--frame: expected a number, got " + options.frame);
   return FrameRange{*only, *only};
+}
+
+scene::Result<FrameRange> frames_of(const Options& options, const FrameRange& available) {
+  auto asked = asked_frames(options, available.first);
+  if (asked && (asked->first < available.first || asked->last > available.last)) {
+    const auto missing = asked->first < available.first ? asked->first : asked->last;
+    return scene::fail(options.source + ": --frame " + std::to_string(missing) + ": expected " +
+                       std::to_string(available.first) + ".." + std::to_string(available.last) +
+                       ", the frames of this dump");
+  }
+  return asked;
 }
 
 struct Position {
@@ -282,7 +292,7 @@ scene::Result<int> run(const Options& options) {
   if (!pixel) return tl::make_unexpected(pixel.error());
   const auto source = open(options);
   if (!source) return tl::make_unexpected(source.error());
-  const auto frames = frames_of(options, (*source)->first_frame());
+  const auto frames = frames_of(options, (*source)->frames());
   if (!frames) return tl::make_unexpected(frames.error());
 
   gpu::Trace trace;

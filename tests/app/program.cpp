@@ -80,6 +80,38 @@ TEST_SUITE("otter") {
                    "shows what the live frames show"));
   }
 
+  TEST_CASE("an inspection that cannot be done as asked says so before it prints or writes anything") {
+    const Folder folder;
+    REQUIRE(folder.otter("record cyclic -o x.psxgpu --frames 2").status == 0);
+    for (const auto* asked :
+         {"x.psxgpu --frames 1..5 --json no.json", "x.psxgpu --frame 0 --heatmap no.png",
+          "cyclic --pixel 320,0 --heatmap no.png", "cyclic --frames 3..2 --json no.json",
+          "cyclic --antialias msaa-4 --heatmap no.png", "cyclic --resolution 2 --json no.json"}) {
+      CAPTURE(asked);
+      const auto ended = folder.otter(std::string("inspect ") + asked);
+      CHECK(ended.status == 2);
+      CHECK(ended.out.empty());
+      CHECK(is_one_line(ended.err));
+      CHECK_FALSE(folder.has("no.json"));
+      CHECK_FALSE(folder.has("no.png"));
+    }
+  }
+
+  TEST_CASE(
+      "an inspection judges frames with sub-pixel corners, and calls unknown what a plain dump cannot tell") {
+    const Folder folder;
+    CHECK(mentions(folder.otter("inspect cyclic --position 256").out, "CyclicOverlap"));
+    REQUIRE(folder.otter("record cyclic -o x.psxgpu").status == 0);
+    const auto plain = folder.otter("inspect x.psxgpu --json x.json").out;
+    CHECK(mentions(plain, "wrong pixels not available"));
+    for (const auto* part : {"buckets: not available", "lint buckets: not available",
+                             "lint links: not available", "lint dropped: not available"}) {
+      CAPTURE(part);
+      CHECK(mentions(plain, part));
+    }
+    CHECK(mentions(contents(folder.path / "x.json"), "\"buckets\": \"not available\""));
+  }
+
   TEST_CASE("every command has a help with examples of itself") {
     const Folder folder;
     for (const auto& command : app::commands) {
