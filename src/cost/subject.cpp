@@ -96,10 +96,7 @@ scene::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
   knobs.antialias = {};
   knobs.resolution = 1;
   knobs.filter = scene::Filter::nearest;
-  // 24-bit colour asks for a canvas and changes no coordinate; the pieces of a BSP have their polygons'
-  // coordinates.
-  knobs.colour = scene::Colour::bits24;
-  if (knobs.visibility == scene::Visibility::bsp) knobs.visibility = scene::Visibility::ot;
+  knobs.colour = scene::Colour::bits24;  // asks for a canvas and changes no coordinate
   const auto& build = builder(knobs);
   auto options = scene::canvas_options(knobs, build.world(), build.units_per_world());
   options->trace = true;

@@ -67,7 +67,7 @@ class Gpu {
   [[nodiscard]] const DrawState& state() const { return current_.state; }
 
   /// Polygons draw inside these limits only; nothing: everywhere. The columns stay the
-  /// caller's, until the next call.
+  /// caller's, until the next call. On a canvas its own pixels are meant, and it may have one sample each.
   void set_limits(std::optional<Limits> limits) { limits_ = limits; }
 
   /// A vertical blank: an interlaced picture goes on with its other field.

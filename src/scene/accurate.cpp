@@ -94,11 +94,12 @@ Result<void> use_targets(const FrameBuilder& builder, const Knobs& knobs, gpu::G
                 std::to_string(canvas::Canvas::frame_bytes(*wanted)) + " bytes; expected at most " +
                 std::to_string(canvas_limit_bytes));
   }
-  if (wanted && knobs.visibility == Visibility::bsp) {
+  if (wanted && knobs.visibility == Visibility::bsp &&
+      (wanted->layers.size() > 1 || !wanted->samples.empty() || wanted->temporal || wanted->scale > 4)) {
     return fail(
-        "--visibility bsp: pieces of polygons are drawn on the console's own pixels; expected the accurate "
-        "knobs "
-        "(position, texture, filter, colour 24, antialias, fog, resolution) at the console's settings");
+        "--visibility bsp splits polygons for one sample at the centre of each pixel: expected --antialias "
+        "none "
+        "or fxaa, and --resolution 1, 2 or 4");
   }
   const auto depth = wanted ? std::nullopt : depth_options(knobs);
   const auto* plane = gpu.depth_plane();

@@ -19,12 +19,12 @@ Primitive half_of(const Primitive& quad, std::size_t first) {
   return half;
 }
 
-inspect::Triangle on_screen(const Primitive& p, std::uint8_t fraction_mask) {
+inspect::Triangle on_screen(const Primitive& p, std::uint8_t fraction_mask, int scale) {
   inspect::Triangle t;
   for (std::size_t k = 0; k < 3; ++k) {
     const Corner& c = p.corner[k];
-    t[k] = {c.sxy.x * 256 + (c.fraction_x & fraction_mask), c.sxy.y * 256 + (c.fraction_y & fraction_mask),
-            c.z_20_12};
+    t[k] = {(c.sxy.x * 256 + (c.fraction_x & fraction_mask)) * scale,
+            (c.sxy.y * 256 + (c.fraction_y & fraction_mask)) * scale, c.z_20_12};
   }
   return t;
 }
@@ -49,11 +49,11 @@ void SplitOrder::operator()(const Primitive& p) {
   }
 }
 
-void SplitOrder::finish(int width, int height, std::uint8_t fraction_mask) {
+void SplitOrder::finish(int width, int height, std::uint8_t fraction_mask, int scale) {
   std::vector<inspect::Triangle> triangles;
   triangles.reserve(triangles_.size());
-  for (const Primitive& p : triangles_) triangles.push_back(on_screen(p, fraction_mask));
-  auto order = inspect::split_into_order(triangles, {0, 0, width - 1, height - 1});
+  for (const Primitive& p : triangles_) triangles.push_back(on_screen(p, fraction_mask, scale));
+  auto order = inspect::split_into_order(triangles, {0, 0, width * scale - 1, height * scale - 1});
   splits_ = order.splits;
   ordered_.reserve(order.pieces.size() + lines_.size());
   for (inspect::Piece& piece : order.pieces) {

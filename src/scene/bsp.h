@@ -17,7 +17,7 @@ namespace scene {
 struct OrderedPrimitive {
   Primitive primitive;
   bool is_whole = true;  ///< it is drawn without limits
-  inspect::Rows rows;    ///< otherwise only these pixels of it, before the drawing offset
+  inspect::Rows rows;    ///< otherwise only these samples of it, before the drawing offset
 };
 
 /// A sink of Submitter, and then the order.
@@ -26,9 +26,10 @@ class SplitOrder {
   /// Forgets the frame before.
   void begin();
   void operator()(const Primitive& p);
-  /// Orders what was collected, for a picture of width x height. `fraction_mask`: the bits of fraction_x and
-  /// fraction_y that the corners are drawn with; 0 for whole pixels.
-  void finish(int width, int height, std::uint8_t fraction_mask);
+  /// Orders what was collected, for a picture of width x height pixels, `scale` samples to a pixel and axis:
+  /// 1, 2 or 4. `fraction_mask`: the bits of fraction_x and fraction_y that the corners are drawn with; 0 for
+  /// whole pixels.
+  void finish(int width, int height, std::uint8_t fraction_mask, int scale);
 
   /// After finish(): puts whole triangles in the place of pieces (scene/snap.h). Returns the number of
   /// pieces.

@@ -329,7 +329,8 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
     s.split.begin();
     s.pass(knobs, wanted, collected, s.split);
     const double before_split = now_ms();
-    s.split.finish(knobs.width, knobs.height, style.fractions ? style.fraction_mask : std::uint8_t{0});
+    s.split.finish(knobs.width, knobs.height, style.fractions ? style.fraction_mask : std::uint8_t{0},
+                   pieces == Pieces::snapped ? 1 : knobs.resolution);
     collected.ot_ms += now_ms() - before_split;
     collected.splits = s.split.splits();
     if (pieces == Pieces::snapped) collected.snapped = s.split.snap_pieces();

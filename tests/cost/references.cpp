@@ -10,6 +10,7 @@
 
 #include "cost/axes.h"
 #include "cost/subject.h"
+#include "demos/demos.h"
 #include "scenes.h"
 
 using namespace cost_test;
@@ -161,17 +162,34 @@ std::optional<Colour> gradient_at(const scene::Scene& s, const Eye& eye, int x, 
 
 TEST_SUITE("cost") {
   TEST_CASE(
-      "visibility: a z-buffer of 32 bits, and a BSP, show at every pixel the slice that a ray in float64 "
-      "meets first") {
+      "visibility: a z-buffer of 32 bits, and a BSP, show the slice that a ray in float64 meets first") {
     const auto scene = slices();
     const Eye eye(scene);
     const auto reference = [&](int x, int y) { return nearest_slice(scene, eye, x, y); };
-    const auto picture = drawn(scene, {{"depth", "32"}});
-    double greatest = 0;
-    CHECK(distance(picture, reference, &greatest) == 0);
-    CHECK(greatest == 0);
+    for (const auto* visibility : {"zbuffer", "bsp"}) {
+      double greatest = 0;
+      CHECK(distance(drawn(scene, {{"depth", "32"}, {"visibility", visibility}}), reference, &greatest) == 0);
+      CHECK(greatest == 0);
+    }
     // And the reference tells a wrong order when it sees one.
     CHECK(distance(drawn(scene, {{"visibility", "ot"}, {"buckets", "16"}}), reference) > 1);
+  }
+
+  TEST_CASE(
+      "visibility: a BSP splits what crosses, and shows with accurate knobs what a z-buffer of 32 bits "
+      "shows") {
+    for (const auto* name : {"cyclic", "crossing"}) {
+      const auto scene = demos::make(*demos::find(name));
+      for (const auto* resolution : {"1", "2", "4"}) {
+        CAPTURE(name);
+        CAPTURE(resolution);
+        const auto shown = [&](std::string_view visibility) {
+          return drawn(scene, {{"visibility", visibility}, {"depth", "32"}, {"resolution", resolution}});
+        };
+        CHECK(shown("bsp") == shown("zbuffer"));
+        CHECK(shown("ot") != shown("zbuffer"));
+      }
+    }
   }
 
   TEST_CASE(

@@ -234,7 +234,7 @@ void Canvas::triangle(const Primitive& p, const Triangle& t, const Paint& paint,
   const Planes planes = make_planes(grid_, t, corners, paint, with_inverse_z);
   ++counters_.primitives;
   if (options_.samples.empty()) {
-    rasterise(corners, planes, paint, clip);
+    rasterise(corners, planes, paint, clip, p.state);
   } else {
     rasterise_samples(corners, planes, paint, clip);
   }
@@ -256,14 +256,22 @@ Mode mode_for(const Target& target, Mode mode) {
 }  // namespace
 
 void Canvas::rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
-                       const Clip& clip) {
+                       const Clip& clip, const DrawState& state) {
+  // From canvas pixels to those of the limits: before the drawing offset, from VRAM's corner.
+  const int shift_x = (grid_.x - state.offset_x()) * options_.scale;
+  const int shift_y = (grid_.y - state.offset_y()) * options_.scale;
+  const auto inside = [&](Range columns, int y) {
+    if (!limits_) return columns;
+    const Columns limit = limits_->at(y + shift_y);
+    return intersect(columns, {limit.left - shift_x, limit.right - shift_x});
+  };
   for (std::size_t i = 0; i < layers_.size(); ++i) {
     const Target to = target(i);
     Paint how = paint;
     how.mode = mode_for(to, paint.mode);
     Coverage coverage(corners, to.offset, clip.rows);
     for (int y = coverage.rows().begin; y < coverage.rows().end; ++y) {
-      for_each_run(intersect(coverage.next(), clip.columns), [&](int x, int count) {
+      for_each_run(intersect(inside(coverage.next(), y), clip.columns), [&](int x, int count) {
         draw_run(to, how, planes, {x, y, count}, counters_);
       });
     }

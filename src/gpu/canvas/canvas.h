@@ -22,6 +22,7 @@
 #include "gpu/canvas/mip.h"
 #include "gpu/canvas/options.h"
 #include "gpu/canvas/setup.h"
+#include "gpu/coverage.h"
 #include "gpu/primitive.h"
 #include "gpu/vram.h"
 
@@ -51,6 +52,9 @@ class Canvas {
   /// Draws the queued semi-transparent polygons, far to near.
   WithoutDepth end_frame();
 
+  /// Polygons draw inside these limits only, in canvas pixels before the drawing offset; nothing: everywhere.
+  /// For a canvas of one sample a pixel, at its centre. The columns stay the caller's.
+  void set_limits(const std::optional<Limits>& limits) { limits_ = limits; }
   /// Draws a polygon, rectangle or line segment if its drawing area touches the canvas.
   /// False: it does not, the primitive is VRAM's. `clut`: 256 entries, read during the call.
   /// `id` is stored as the pixels' writer.
@@ -104,7 +108,7 @@ class Canvas {
   void polygon(const Primitive& p, const Paint& paint, const Clip& clip);
   void triangle(const Primitive& p, const Triangle& triangle, const Paint& paint, const Clip& clip);
   void rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
-                 const Clip& clip);
+                 const Clip& clip, const DrawState& state);
   void rasterise_samples(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
                          const Clip& clip);
   void rectangle(const Primitive& p, const Paint& paint, const Clip& clip);
@@ -117,6 +121,7 @@ class Canvas {
 
   Options options_;
   Grid grid_;
+  std::optional<Limits> limits_;
   std::vector<Point> layer_points_, sample_points_;
   std::vector<Layer> layers_;
   std::vector<std::uint32_t> ids_, texcoords_;

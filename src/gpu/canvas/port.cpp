@@ -16,6 +16,7 @@ void Gpu::set_canvas(const std::optional<canvas::Options>& options) {
 /// Needs canvas_.
 bool Gpu::draw_on_canvas() {
   canvas_->watch(trace_);
+  canvas_->set_limits(limits_);
   return canvas_->draw(current_, vram_, clut_.entries(), current_draw() + 1);
 }
 
