@@ -1,6 +1,7 @@
 #include "inspect/causes.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <map>
 #include <unordered_set>
@@ -52,32 +53,59 @@ bool interpenetrate(const std::vector<Occurrence>* a, const std::vector<Occurren
   return false;
 }
 
+// Far to near. A painter's list is nearly sorted already, so insertion compares each with its neighbour and
+// little more.
+void sort_far_to_near(std::vector<Fragment>& stack, std::uint32_t pixel, Surfaces& surfaces) {
+  const auto is_before = [&](const Fragment& a, const Fragment& b) {
+    return surfaces.compare(a, b, pixel) < 0;
+  };
+  constexpr std::size_t few = 48;
+  if (stack.size() > few) return std::stable_sort(stack.begin(), stack.end(), is_before);
+  for (std::size_t i = 1; i < stack.size(); ++i) {
+    for (std::size_t k = i; k > 0 && is_before(stack[k], stack[k - 1]); --k)
+      std::swap(stack[k], stack[k - 1]);
+  }
+}
+
+// Edges, each once. Neighbouring pixels mostly have the same ones: those seen last are found without the set.
+class EdgeList {
+ public:
+  void add(std::uint32_t from, std::uint32_t to) {
+    const std::uint64_t key = std::uint64_t{from} << 32 | to;
+    std::uint64_t& recent = recent_[(key * 0x9e3779b97f4a7c15U) >> 54];  // Fibonacci hashing to 10 bits
+    if (from == to || recent == key) return;
+    recent = key;
+    if (seen_.insert(key).second) edges_.emplace_back(from, to);
+  }
+  [[nodiscard]] std::vector<Edge> take() { return std::move(edges_); }
+
+ private:
+  std::vector<Edge> edges_;
+  std::unordered_set<std::uint64_t> seen_;
+  std::array<std::uint64_t, 1024> recent_{};  // 0 would be an edge from draw 0 to itself, which is none
+};
+
 // Edges from each depth of a pixel to the next nearer one; by transitivity they stand for all pairs.
 std::vector<Edge> must_be_drawn_before(const Fragments& fragments, Surfaces& surfaces) {
-  std::vector<Edge> edges;
-  std::unordered_set<std::uint64_t> seen;
+  EdgeList edges;
   std::vector<Fragment> stack;
   for (std::uint32_t pixel = 0; pixel < gpu::Vram::size; ++pixel) {
     const auto here = fragments.at(pixel);
     if (here.size() < 2) continue;
     stack.assign(here.begin(), here.end());
-    std::sort(stack.begin(), stack.end(),
-              [&](const Fragment& a, const Fragment& b) { return surfaces.compare(a, b, pixel) < 0; });
+    sort_far_to_near(stack, pixel, surfaces);
     std::size_t farther = 0, begin = 0;  // stack[farther..begin) is the depth before the one at begin
     while (begin < stack.size()) {
       std::size_t end = begin + 1;
       while (end < stack.size() && surfaces.compare(stack[begin], stack[end], pixel) == 0) ++end;
       for (std::size_t i = farther; i < begin; ++i) {
-        for (std::size_t k = begin; k < end; ++k) {
-          const std::uint32_t from = stack[i].draw, to = stack[k].draw;
-          if (from != to && seen.insert(std::uint64_t{from} << 32 | to).second) edges.emplace_back(from, to);
-        }
+        for (std::size_t k = begin; k < end; ++k) edges.add(stack[i].draw, stack[k].draw);
       }
       farther = begin;
       begin = end;
     }
   }
-  return edges;
+  return edges.take();
 }
 
 std::vector<std::uint32_t> component_of_draws(std::size_t draws, const Fragments& fragments,
