@@ -12,6 +12,9 @@
 
 namespace oracle {
 
+/// Low 11 bits, sign-extended.
+inline int sx11(std::uint32_t v) { return static_cast<int>((v & 0x7ff) ^ 0x400) - 0x400; }
+
 class PlainGpu {
  public:
   std::vector<std::uint16_t> vram = std::vector<std::uint16_t>(1024 * 512);
