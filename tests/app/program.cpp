@@ -1,13 +1,11 @@
-// The program as its users meet it: run as a process, judged by exit status, stdout, stderr and files.
+// Every command of the program, run as a process.
+
+#include "program.h"
 
 #include <doctest/doctest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -18,41 +16,7 @@
 
 namespace {
 
-namespace fs = std::filesystem;
-
-struct Outcome {
-  int status;
-  std::string out, err;
-};
-
-std::string contents(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-// A fresh folder in which the program runs.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("otter_tests_program_" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  // `arguments` as a shell would split them; `environment` before them, as "A=1 -u B".
-  [[nodiscard]] Outcome otter(const std::string& arguments, const std::string& environment = "") const {
-    const auto line = "cd '" + path.string() + "' && env " + environment + " '" OTTER_PROGRAM "' " +
-                      arguments + " > .out 2> .err < /dev/null";
-    const int status = std::system(line.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(path / ".out"), contents(path / ".err")};
-  }
-  [[nodiscard]] bool has(const std::string& name) const { return fs::exists(path / name); }
-};
-
-bool is_one_line(const std::string& text) {
-  return !text.empty() && std::count(text.begin(), text.end(), '\n') == 1 && text.back() == '\n';
-}
-
-bool mentions(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
+using tests::contents, tests::Folder, tests::is_one_line, tests::mentions;
 
 const std::string no_display = "-u DISPLAY -u WAYLAND_DISPLAY -u SDL_VIDEODRIVER -u XDG_RUNTIME_DIR";
 
