@@ -220,9 +220,10 @@ scene::Result<std::optional<Position>> pixel_of(const Options& options) {
   const auto x = number(std::string_view(options.pixel).substr(0, comma));
   const auto y =
       comma == std::string::npos ? std::nullopt : number(std::string_view(options.pixel).substr(comma + 1));
-  if (!x || !y || *x > 1023 || *y > 511)
+  const auto column = x.value_or(1024), row = y.value_or(512);
+  if (column > 1023 || row > 511)
     return scene::fail("--pixel: expected X,Y in the picture, got " + options.pixel);
-  return Position{static_cast<int>(*x), static_cast<int>(*y)};
+  return Position{static_cast<int>(column), static_cast<int>(row)};
 }
 
 // Told by its first bytes, so that any name will do.
