@@ -24,8 +24,8 @@ constexpr int side = 64;  // console pixels of the square canvas
 /// Every way in which a canvas can place and sample positions.
 std::vector<Named> all_targets() {
   std::vector<Named> list;
-  const auto add = [&](std::string name, int scale, std::vector<canvas::Point> layers,
-                       std::vector<canvas::Point> samples) {
+  const auto add = [&](const std::string& name, int scale, const std::vector<canvas::Point>& layers,
+                       const std::vector<canvas::Point>& samples) {
     for (const bool deep : {false, true}) {
       canvas::Options o{.width = side,
                         .height = side,
@@ -161,6 +161,7 @@ TEST_SUITE("canvas") {
           return extremes[static_cast<std::size_t>(random.between(0, 7))] / (random.between(0, 1) + 1);
         };
         std::vector<Corner> corners;
+        corners.reserve(4);
         for (int c = 0; c < 4; ++c) {
           corners.push_back({coordinate(), coordinate(), random.word() & 0xffffff, random.between(0, 255),
                              random.between(0, 255),

@@ -21,6 +21,7 @@ class RandomTriangles {
   /// `count` triangles around a screen of size x size pixels.
   std::vector<inspect::Triangle> scene(Kind kind, int count, int size) {
     std::vector<inspect::Triangle> triangles;
+    triangles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) triangles.push_back(triangle(kind, size, triangles));
     return triangles;
   }
