@@ -20,6 +20,10 @@ class Depths {
     return nearness == 0 ? a < b : nearness < 0;
   }
   [[nodiscard]] bool has_plane(std::uint32_t triangle) const { return !planes_[triangle].is_degenerate(); }
+  /// One triangle, drawn twice: the index decides everywhere.
+  [[nodiscard]] bool are_same(std::uint32_t a, std::uint32_t b) const {
+    return planes_[a].has_corners_of(planes_[b]);
+  }
 
   DecisionCounts counts;
 
@@ -226,6 +230,9 @@ class Splitter {
   // Affine functions take their extremes at the ends of rows.
   Side side(const Piece& piece, std::uint32_t divider) {
     if (piece.triangle == divider) return Side::behind;
+    if (depths_.are_same(piece.triangle, divider)) {
+      return piece.triangle < divider ? Side::behind : Side::in_front;
+    }
     bool behind = false, in_front = false;
     for (int y = piece.rows.top; y < piece.rows.bottom(); ++y) {
       const Columns span = piece.rows.at(y);

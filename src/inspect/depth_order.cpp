@@ -4,6 +4,7 @@
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace inspect {
@@ -42,6 +43,11 @@ InversePlane::InversePlane(const std::array<Corner, 3>& corners) : corners_(corn
     std::swap(b, c);
     area_ = -area_;
   }
+  const auto least =
+      std::min_element(corners_.begin(), corners_.end(), [](const Corner& one, const Corner& other) {
+        return std::tie(one.x, one.y) < std::tie(other.x, other.y);
+      });
+  std::rotate(corners_.begin(), least, corners_.end());
   for (std::size_t i = 0; i < 3; ++i) inverse_z_[i] = 4096.0 / corners_[i].z;
 }
 
@@ -83,6 +89,10 @@ std::strong_ordering compare_nearness_exactly(const InversePlane& a, int ax, int
 
 std::strong_ordering compare_nearness(const InversePlane& a, int ax, int ay, const InversePlane& b, int bx,
                                       int by, DecisionCounts& counts) {
+  if (ax == bx && ay == by && a.has_corners_of(b)) {
+    ++counts.filtered;
+    return std::strong_ordering::equal;
+  }
   const auto near_a = a.estimate(ax, ay), near_b = b.estimate(bx, by);
   const double difference = near_a.value - near_b.value;
   if (std::abs(difference) > near_a.slack + near_b.slack) {

@@ -17,13 +17,14 @@ namespace inspect {
 struct Corner {
   std::int32_t x = 0, y = 0;  ///< 1/256 pixel, |x|, |y| <= corner_limit
   std::uint32_t z = 0;  ///< view-space depth, unsigned 20.12; 0 counts as 1/4096, the smallest depth [ours]
+  bool operator==(const Corner&) const = default;
 };
 
 inline constexpr std::int32_t corner_limit = 1 << 20;
 
 /// How comparisons were decided: the price of exactness.
 struct DecisionCounts {
-  std::uint64_t filtered = 0;  ///< by the floating-point filter
+  std::uint64_t filtered = 0;  ///< by the floating-point filter, or because both are one triangle drawn twice
   std::uint64_t exact = 0;     ///< by wide integers
   DecisionCounts& operator+=(const DecisionCounts& other) {
     filtered += other.filtered;
@@ -44,6 +45,9 @@ class InversePlane {
   /// It has no plane; do not compare it.
   [[nodiscard]] bool is_degenerate() const { return area_ == 0; }
 
+  /// Both have the same three corners, in whatever order: 1/z is the same everywhere.
+  [[nodiscard]] bool has_corners_of(const InversePlane& other) const { return corners_ == other.corners_; }
+
   /// 1/z at pixel x, y in double: units of 4096 / z(20.12), off by at most `slack`.
   struct Estimate {
     double value = 0, slack = 0;
@@ -61,7 +65,7 @@ class InversePlane {
 
   std::array<Corner, 3> corners_{};
   std::array<double, 3> inverse_z_{};
-  std::int64_t area_ = 0;  ///< D > 0 unless degenerate: the corners are put in that order
+  std::int64_t area_ = 0;  ///< D > 0 unless degenerate: the corners are put in that order, the least first
 };
 
 /// greater: a at pixel ax, ay is nearer than b at pixel bx, by (usually the same: they differ where VRAM

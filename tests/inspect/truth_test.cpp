@@ -110,6 +110,10 @@ TEST_SUITE("inspect") {
     tests::Stage stage;
     stage.quad(0, 0, 4, 4, 100, {.bucket = 1});
     stage.quad(0, 0, 4, 4, 100, {.bucket = 1});
+    const auto once = stage.report();
+    CHECK(once.wrong_pixels() == 0);
+    CHECK(once.decisions.exact == 0);  // the same corners: nothing to compute
+    stage.quad(0, 0, 5, 3, 100, {.bucket = 1});
     const auto report = stage.report();
     CHECK(report.wrong_pixels() == 0);
     CHECK(report.decisions.exact > 0);
