@@ -133,13 +133,13 @@ std::string summary_table(const SceneResult& scene, const Axis& axis) {
 
 /// Every stage of every setting.
 std::string stage_table(const std::vector<const Row*>& rows, std::string_view caption) {
-  std::string html =
-      joined({"<div class=wide><table><caption>", caption,
-              "</caption><tr><th "
-              "class=name>setting<th>ms<th>spread<th>ratio<th>GTE<th>OT<th>walk<th>raster<th>filter"
-              "<th>touched<th>held<th>vertices, px mean<th>p95<th>max<th>texels "
-              "mean<th>p95<th>max<th>colour, rms<th>4x4 "
-              "means<th>PSNR<th>SSIM<th>edges, rms</tr>\n"});
+  std::string html = joined(
+      {"<div class=wide><table><caption>", caption,
+       "</caption><tr class=group><th><th colspan=3>frame, ms<th colspan=5>of it, ms<th colspan=2>bytes<th "
+       "colspan=3>vertices, pixels<th colspan=3>texels<th colspan=4>colour<th>edges</tr><tr><th "
+       "class=name>setting<th>median<th>spread<th>ratio<th>GTE<th>OT<th>walk<th>raster<th>filter<th>"
+       "touched<th>held<th>mean<th>p95<th>max<th>mean<th>p95<th>max<th>rms<th>4x4<th>PSNR<th>SSIM<th>rms"
+       "</tr>\n"});
   const double console = console_ms(rows);
   for (const Row* row : rows) {
     html += joined({"<tr", row->is_console ? " class=console" : "", "><td class=name>", escaped(row->setting),

@@ -156,7 +156,7 @@ std::string head(Size size, const Scale& x, const Scale& y, const std::string& y
                theme::line,
                "'\nset key at screen 0.5, screen ",
                n((size.height - 14) / size.height),
-               " center horizontal maxrows 1 width -6 samplen 1 textcolor rgb '",
+               " center horizontal reverse Left maxrows 1 width -6 samplen 1 textcolor rgb '",
                theme::ink,
                "'\nset xlabel 'frame time, ms (logarithmic)' offset 0,0.3 textcolor rgb '",
                theme::ink,

@@ -24,7 +24,7 @@ th{color:var(--soft);font-weight:600;vertical-align:bottom}.name{text-align:left
 .gap{padding-left:26px}th.up{color:var(--up)}th.down{color:var(--down)}.group th{border-bottom:0;padding-bottom:0}
 tr.console td{background:var(--own)}td.best{color:var(--front);font-weight:650}
 caption{text-align:left;font-weight:600;padding:12px 0 4px}.wide{overflow-x:auto}
-details{margin:14px 0}summary{cursor:pointer;color:var(--soft)}
+details{margin:14px 0}details table{font-size:12px}details td,details th{padding:3px 5px}summary{cursor:pointer;color:var(--soft)}
 .pictures{display:flex;flex-wrap:wrap;gap:20px 16px;margin:18px 0}
 figure{margin:0;width:320px;font-size:13px}figure.large{width:640px;max-width:100%}
 img{display:block;image-rendering:pixelated;background:#000;width:100%;height:auto}
