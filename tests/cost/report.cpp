@@ -47,6 +47,28 @@ TEST_SUITE("cost") {
     CHECK(cost::sentence(result, *cost::find_axis("fog")).empty());
   }
 
+  TEST_CASE(
+      "a sweep draws each setting once a round, however many axes ask for it, and tells the time left") {
+    cost::Subject subject(runway(false), 0);
+    cost::SweepOptions options;
+    options.axes = {cost::find_axis("transform"), cost::find_axis("position")};
+    options.rounds = 3;
+    std::vector<double> left;
+    std::size_t steps = 0;
+    options.progress = [&](std::size_t done, std::size_t all, double seconds_left) {
+      CHECK(done == left.size() + 1);
+      steps = all;
+      left.push_back(seconds_left);
+    };
+    REQUIRE(cost::sweep(subject, options));
+    // Three transforms and four positions, up and down; the console's and the most accurate are the same on
+    // both.
+    CHECK(steps == 3 * (2 * (3 + 4) - 2));
+    CHECK(left.size() == steps);
+    CHECK(left.front() > 0);
+    CHECK(left.back() < left.front() / 4);
+  }
+
   TEST_CASE("a sweep that is stopped reports what it has") {
     const auto* axis = cost::find_axis("texture");
     const auto result = quick_sweep({axis}, 9);  // in the second round of errors and timing
