@@ -10,7 +10,7 @@
 
 namespace {
 
-using scene::Blend, scene::Face, scene::Material, scene::Mesh, scene::none, scene::Rgb8, scene::World;
+using scene::Blend, scene::Face, scene::Material, scene::Mesh, scene::Rgb8, scene::World;
 using tests::refusal;
 
 constexpr const char* triangle = "<TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet>";

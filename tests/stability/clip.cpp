@@ -23,7 +23,6 @@ using glm::dvec3;
 using scene::Clipper;
 using scene::ClipPolygon;
 using scene::Projection;
-using stability::between;
 using stability::Measure;
 using stability::Random;
 
