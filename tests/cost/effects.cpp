@@ -66,6 +66,21 @@ TEST_SUITE("cost") {
     CHECK(buffers("antialias", "fxaa") == Names{"list in main RAM"});
   }
 
+  TEST_CASE(
+      "semi-transparent polygons before a z-buffer ask for a queue, on the console's target and on a "
+      "canvas") {
+    for (const auto* colour : {"15", "24"}) {
+      scene::Knobs knobs;
+      REQUIRE(scene::set_knob(knobs, "visibility", "zbuffer"));
+      REQUIRE(scene::set_knob(knobs, "colour", colour));
+      const auto report = cost::find_effects(demos::make(*demos::find("glass")), 0, knobs, 1);
+      REQUIRE(report);
+      CHECK(std::ranges::any_of(report->buffers, [](const auto& b) {
+        return b.name.find("queue") != std::string::npos && b.bytes > 0;
+      }));
+    }
+  }
+
   TEST_CASE("Gouraud, textures, dither and blending are found with their primitives and pixels") {
     const auto shaded = cost::find_effects(shards(false), 0, {}, 1);
     REQUIRE(shaded);

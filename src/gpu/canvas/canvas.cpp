@@ -119,12 +119,13 @@ bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clu
 
 void Canvas::draw_queue() {
   std::ranges::stable_sort(queue_, std::ranges::greater{}, &Queued::farthest_z);
-  for (const Queued& q : std::exchange(queue_, {})) {
+  for (const Queued& q : queue_) {
     Paint how = paint(q.primitive, *q.vram, q.clut.data(), q.id);
     how.pass = Pass::semi_transparent;
     watch_.draw = q.id - 1;
     polygon(q.primitive, how, clip(q.primitive.state));
   }
+  queue_.clear();  // and keeps its room for the next frame
 }
 
 void Canvas::put_into(std::span<std::uint16_t> vram) const {
