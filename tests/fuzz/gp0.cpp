@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 
 #include "gpu/gpu.h"
 
@@ -14,10 +15,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static gpu::Trace trace;
   gpu.gp1(0);
   std::memset(gpu.vram().pixels().data(), 0, gpu.vram().pixels().size_bytes());
-  if ((data[0] & 1) != 0) {
-    gpu.set_depth(gpu::DepthOptions{});
-  } else {
-    gpu.set_depth(std::nullopt);
+  const bool has_depth = (data[0] & 1) != 0;  // begin_frame empties a plane that is there already
+  if (has_depth != (gpu.depth_plane() != nullptr)) {
+    gpu.set_depth(has_depth ? std::optional(gpu::DepthOptions{}) : std::nullopt);
   }
   trace.draws.clear();
   trace.history.clear();
