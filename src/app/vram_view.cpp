@@ -79,15 +79,13 @@ void draw_vram_marks(const gpu::Gpu& gpu, Rect where, float scale) {
   const auto& state = gpu.state();
   outline(view, state.left(), state.top(), state.right() - state.left() + 1, state.bottom() - state.top() + 1,
           drawing_colour, "drawn to", 1);
+  // Where there is no mouse ImGui says -FLT_MAX, which no int can hold: its place is judged first.
   const ImVec2 mouse = ImGui::GetIO().MousePos;
-  const int x = static_cast<int>((mouse.x - static_cast<float>(where.x)) * display::vram_width /
-                                 static_cast<float>(where.width));
-  const int y = static_cast<int>((mouse.y - static_cast<float>(where.y)) * display::vram_height /
-                                 static_cast<float>(where.height));
-  const bool inside = ImGui::IsMousePosValid(&mouse) && mouse.x >= static_cast<float>(where.x) &&
-                      mouse.y >= static_cast<float>(where.y) && x < display::vram_width &&
-                      y < display::vram_height;
-  if (inside && !ImGui::GetIO().WantCaptureMouse) magnifier(gpu.vram(), x, y, scale);
+  const float across = (mouse.x - static_cast<float>(where.x)) / static_cast<float>(where.width),
+              down = (mouse.y - static_cast<float>(where.y)) / static_cast<float>(where.height);
+  if (across < 0 || across >= 1 || down < 0 || down >= 1 || ImGui::GetIO().WantCaptureMouse) return;
+  magnifier(gpu.vram(), static_cast<int>(across * display::vram_width),
+            static_cast<int>(down * display::vram_height), scale);
 }
 
 }  // namespace app

@@ -130,7 +130,8 @@ struct FrameBuilder::State {
     }
     if (knobs.visibility != Visibility::sorted)
       return {static_cast<std::uint32_t>(knobs.buckets), knobs.bias, 1};
-    const auto step = std::max<std::int64_t>(1, sort_keys / knobs.buckets);  // a bias means the same depth
+    const auto step =
+        std::max<std::int64_t>(1, std::int64_t{sort_keys} / knobs.buckets);  // a bias means the same depth
     return {sort_keys, knobs.bias * step, step};
   }
 
