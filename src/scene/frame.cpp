@@ -150,6 +150,7 @@ struct FrameBuilder::State {
     submission.materials = materials;
     submission.clipper = &clipper;
     submission.key = knobs.key;
+    if (needs_fractions(knobs)) submission.fraction_mask = fraction_mask(knobs.position);
     for (std::size_t i = 0; i < world.instances.size(); ++i) {
       const auto& instance = world.instances[i];
       if (instance.mesh >= models.size()) continue;

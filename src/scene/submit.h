@@ -68,6 +68,9 @@ struct Submission {
   bool mirrored = false;  ///< the instance turns fronts into backs
   Key key = Key::average;
   std::uint32_t instance = 0;
+  /// Bits of the fractions that will be drawn. Which way a face turns is judged where its corners will be: a
+  /// sliver whose whole pixels are a line may have samples, and left out it would be a crack.
+  std::uint8_t fraction_mask = 0;
 };
 
 /// Calls sink(const Primitive&) for what is to be drawn, in the order of the faces, then
@@ -190,8 +193,19 @@ class Submitter {
 
   [[nodiscard]] bool faces_us(const Corner& a, const Corner& b, const Corner& c,
                               const PacketMaterial& m) const {
-    const std::int32_t area = screen_area(a.sxy, b.sxy, c.sxy);
+    const std::int64_t area = s_.fraction_mask == 0 ? screen_area(a.sxy, b.sxy, c.sxy) : fine_area(a, b, c);
     return m.double_sided ? area != 0 : s_.mirrored ? area < 0 : area > 0;
+  }
+
+  // As screen_area, in units of 1/65536 square pixel.
+  [[nodiscard]] std::int64_t fine_area(const Corner& a, const Corner& b, const Corner& c) const {
+    const auto x = [this](const Corner& k) -> std::int64_t {
+      return k.sxy.x * 256 + (k.fraction_x & s_.fraction_mask);
+    };
+    const auto y = [this](const Corner& k) -> std::int64_t {
+      return k.sxy.y * 256 + (k.fraction_y & s_.fraction_mask);
+    };
+    return x(a) * (y(b) - y(c)) + x(b) * (y(c) - y(a)) + x(c) * (y(a) - y(b));
   }
 
   [[nodiscard]] Corner corner_of(std::uint32_t vertex, std::uint32_t colour, ot::Uv uv) const {

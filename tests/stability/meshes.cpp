@@ -183,7 +183,9 @@ TEST_SUITE("stability") {
         return i < 8 ? 0.25 * between(random, 0, 3) : between(random, 0, 9999) / 1e4;
       };
       camera.orientation =
-          scene::rotation_y(turns()) * scene::rotation_x(turns()) * scene::rotation_z(turns());
+          scene::rotation_y(turns());  // one after the other: compilers order operands as they like
+      camera.orientation *= scene::rotation_x(turns());
+      camera.orientation *= scene::rotation_z(turns());
       const auto place = [&] { return static_cast<float>(between(random, -400, 400)) / 1000.0F; };
       camera.position = {place(), place(), place()};
       scene::Knobs knobs;
