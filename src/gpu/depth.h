@@ -84,7 +84,7 @@ class DepthPlane {
  private:
   DepthOptions options_;
   DepthConstants constants_;
-  std::vector<std::uint32_t> keys_;
+  std::vector<std::uint32_t, LineAllocator<std::uint32_t>> keys_;
 };
 
 /// The key of a stored depth, and the stored depth that a key reads as; that of `empty` is far.

@@ -7,10 +7,29 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <span>
 #include <vector>
 
 namespace gpu {
+
+/// Memory that begins a line of the caches: a vector at a multiple of its length then lies in one line, not
+/// in two.
+template <class T>
+struct LineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+
+  LineAllocator() = default;
+  template <class U>
+  LineAllocator(const LineAllocator<U>&) {
+  }  // NOLINT(google-explicit-constructor): what allocators have to offer
+  [[nodiscard]] T* allocate(std::size_t count) {
+    return static_cast<T*>(::operator new(count * sizeof(T), line));
+  }
+  void deallocate(T* memory, std::size_t) { ::operator delete(memory, line); }
+  bool operator==(const LineAllocator&) const = default;
+};
 
 class Vram {
  public:
@@ -37,7 +56,7 @@ class Vram {
   static constexpr std::size_t padding = 64;
 
  private:
-  std::vector<std::uint16_t> pixels_;
+  std::vector<std::uint16_t, LineAllocator<std::uint16_t>> pixels_;
 };
 
 }  // namespace gpu

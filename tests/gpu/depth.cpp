@@ -109,6 +109,39 @@ TEST_SUITE("gpu") {
   }
 
   TEST_CASE(
+      "Rows of any length, hidden at their start, in their middle or wholly, show where nothing nearer is") {
+    // Bars from x = 0 to 64 a pixel longer in every row, then a far surface over all of it, then a wall
+    // before all.
+    for (const auto format :
+         {DepthFormat::bits16, DepthFormat::bits24, DepthFormat::bits32, DepthFormat::float32}) {
+      CAPTURE(static_cast<int>(format));
+      for (const auto test : {DepthTest::less, DepthTest::lequal}) {
+        const Bench bench(DepthOptions{.format = format, .test = test});
+        const auto quad = [&](std::uint32_t colour, double z, int left, int top, int right, int bottom) {
+          bench.gpu->gp0(depths({z, z, z, z}));
+          bench.gpu->gp0(
+              Words{0x28000000 | colour, at(left, top), at(right, top), at(left, bottom), at(right, bottom)});
+        };
+        for (int row = 0; row < 65; ++row) quad(red, 100, 0, row, row, row + 1);
+        quad(red, 100, 80, 0, 96, 65);
+        quad(green, 200, 0, 0, 130, 65);
+        std::size_t wrong = 0;
+        for (int y = 0; y < 65; ++y) {
+          for (int x = 0; x < 140; ++x) {
+            const bool is_red = x < y || (x >= 80 && x < 96);
+            wrong += bench.pixel(x, y) != (x >= 130 ? 0 : is_red ? 0x1f : 0x3e0) ? 1U : 0U;
+          }
+        }
+        CHECK(wrong == 0);
+        quad(0x0000ff, 50, 0, 0, 140, 65);
+        quad(0x00ff00, 50, 0, 0, 140, 65);
+        CHECK(bench.pixel(0, 30) == (test == DepthTest::less ? 0x1f : 0x3e0));
+        CHECK(bench.pixel(139, 30) == (test == DepthTest::less ? 0x1f : 0x3e0));
+      }
+    }
+  }
+
+  TEST_CASE(
       "Of two surfaces at or behind far the first wins with less, the last with lequal, in every format") {
     for (const DepthFormat format :
          {DepthFormat::bits16, DepthFormat::bits24, DepthFormat::bits32, DepthFormat::float32}) {
