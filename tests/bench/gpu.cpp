@@ -220,12 +220,12 @@ void print(const Table& table) {
   }
 }
 
-/// Gouraud triangles of 32 pixels through the z-buffer, against the same without one.
-double depth_ratio(gpu::Gpu& gpu, const gpu::DepthOptions& options, int rounds) {
+/// Gouraud triangles through the z-buffer, against the same without one.
+double depth_ratio(gpu::Gpu& gpu, const gpu::DepthOptions& options, int edge, int rounds) {
   std::mt19937 random(5);
   Case plain, deep;
   for (int i = 0; i < primitives; ++i) {
-    const Shape shape = triangle(random, 32, 0x30, 0);
+    const Shape shape = triangle(random, edge, 0x30, 0);
     plain.words.insert(plain.words.end(), shape.words.begin(), shape.words.end());
     for (std::uint32_t v = 0; v < 3; ++v) {
       const std::uint32_t z = (100 + below(random, 4000)) << 12;
@@ -266,15 +266,16 @@ int main(int argc, char** argv) {
   const Table vectors = measure(gpu, rounds);
   print(vectors);
 
-  std::printf("\nz-buffer over OT, Gouraud triangles of 32 px (target 1.30):\n");
+  std::printf("\nz-buffer over OT, Gouraud triangles of 8 / 32 / 128 px (target at 32 px: 1.30):\n");
   using gpu::DepthFormat, gpu::DepthMapping;
   constexpr std::array formats{"16", "24", "32", "float"};
-  for (std::size_t f = 0; f < formats.size(); ++f) {
-    gpu::DepthOptions options{.format = static_cast<DepthFormat>(f)};
-    const double hyperbolic = depth_ratio(gpu, options, rounds);
-    options.mapping = DepthMapping::linear;
-    std::printf("  %-6s hyperbolic %.2f  linear %.2f\n", formats[f], hyperbolic,
-                depth_ratio(gpu, options, rounds));
+  for (const auto mapping : {DepthMapping::hyperbolic, DepthMapping::linear}) {
+    for (std::size_t f = 0; f < formats.size(); ++f) {
+      const gpu::DepthOptions options{.format = static_cast<DepthFormat>(f), .mapping = mapping};
+      std::printf("  %-10s %-6s", mapping == DepthMapping::linear ? "linear" : "hyperbolic", formats[f]);
+      for (const int edge : edges) std::printf(" %.2f", depth_ratio(gpu, options, edge, rounds));
+      std::printf("\n");
+    }
   }
 
   gpu::use_target(gpu::target_names().back());
