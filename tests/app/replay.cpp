@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "gpu/compression.h"
@@ -54,7 +53,11 @@ TEST_SUITE("otter") {
   TEST_CASE("replay writes the VRAM after a whole dump, a VSync or a drawing command") {
     const Folder folder;
     folder.put("d.psxgpu", file_of(three_fills()));
-    const std::vector<std::pair<std::string, std::uint32_t>> rows{
+    struct Row {
+      std::string options;
+      std::uint32_t pixel;
+    };
+    const std::vector<Row> rows{
         {"", blue},
         {"--frame 1", red},
         {"--frame 2", green},
@@ -65,14 +68,14 @@ TEST_SUITE("otter") {
         {"--frame 2 --until 3", green},
         {"--frame 3 --until 1", red},
     };
-    for (const auto& [options, pixel] : rows) {
-      CAPTURE(options);
-      const auto replayed = folder.otter("replay d.psxgpu --vram v.bin " + options);
+    for (const auto& row : rows) {
+      CAPTURE(row.options);
+      const auto replayed = folder.otter("replay d.psxgpu --vram v.bin " + row.options);
       CHECK(replayed.status == 0);
       CHECK(replayed.err.empty());
       CHECK(is_one_line(replayed.out));
       CHECK(replayed.out == "d.psxgpu: v1r1, 7 packets, 3 VSyncs, 3 drawing commands\n");
-      CHECK(first_pixel(folder, "v.bin") == pixel);
+      CHECK(first_pixel(folder, "v.bin") == row.pixel);
     }
   }
 
@@ -165,7 +168,10 @@ TEST_SUITE("otter") {
       dump.add(PacketType::port0, words);
       return file_of(dump);
     };
-    const std::vector<std::pair<std::string, std::string>> rows{
+    struct Row {
+      std::string bytes, offset;
+    };
+    const std::vector<Row> rows{
         {"", "0"},
         {"PSXGPUDUMPv2", "10"},
         {std::string(64, 'x'), "0"},
@@ -176,15 +182,15 @@ TEST_SUITE("otter") {
         {"\x28\xb5\x2f\xfd is not zstd after all", ""},
     };
     const Folder folder;
-    for (const auto& [bytes, offset] : rows) {
-      CAPTURE(bytes.size());
-      folder.put("d.psxgpu", bytes);
+    for (const auto& row : rows) {
+      CAPTURE(row.bytes.size());
+      folder.put("d.psxgpu", row.bytes);
       const auto replayed = folder.otter("replay d.psxgpu --vram v.bin --readback r.bin -o o.png");
       CAPTURE(replayed.err);
       CHECK(replayed.status == 2);
       CHECK(is_one_line(replayed.err));
       CHECK(mentions(replayed.err, "d.psxgpu"));
-      CHECK(mentions(replayed.err, offset));
+      CHECK(mentions(replayed.err, row.offset));
       CHECK(replayed.out.empty());
       for (const auto* name : {"v.bin", "r.bin", "o.png"}) CHECK_FALSE(folder.has(name));
     }

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "program.h"
@@ -49,8 +48,8 @@ Image two_packets() {
 /// VRAM after two_packets() over pixels of `background`.
 std::string two_packets_drawn(std::uint16_t background) {
   std::vector<std::uint16_t> pixels(1024 * 512, background);
-  for (const std::size_t y : {1, 2}) {
-    for (const std::size_t x : {2, 3, 4}) pixels[y * 1024 + x] = 0x001f;
+  for (std::size_t y = 1; y <= 2; ++y) {
+    for (std::size_t x = 2; x <= 4; ++x) pixels[y * 1024 + x] = 0x001f;
   }
   for (std::size_t y = 0; y < 4; ++y) {
     for (std::size_t x = 0; x < 4 - y; ++x) pixels[y * 1024 + x] = 0x03e0;
@@ -182,7 +181,10 @@ TEST_SUITE("otter") {
     folder.put("ram.bin", two_packets().bytes);
     folder.put("short.bin", "only this");
     folder.put("odd.bin", two_packets().bytes + '\0');
-    const std::vector<std::pair<std::string, std::string>> rows{
+    struct Row {
+      std::string arguments, said;
+    };
+    const std::vector<Row> rows{
         {"walk", "image is required"},
         {"walk ram.bin", "--head"},
         {"walk nowhere.bin --head 100C", "nowhere.bin"},
@@ -199,13 +201,13 @@ TEST_SUITE("otter") {
         {"walk ram.bin --head 100C --visibility bsp", "--visibility"},
         {"walk ram.bin --head 100C --magic", "--magic"},
     };
-    for (const auto& [arguments, said] : rows) {
-      CAPTURE(arguments);
-      const auto walked = folder.otter(arguments + " --vram v.bin");
+    for (const auto& row : rows) {
+      CAPTURE(row.arguments);
+      const auto walked = folder.otter(row.arguments + " --vram v.bin");
       CAPTURE(walked.err);
       CHECK(walked.status == 2);
       CHECK(is_one_line(walked.err));
-      CHECK(mentions(walked.err, said));
+      CHECK(mentions(walked.err, row.said));
       CHECK_FALSE(folder.has("v.bin"));
     }
   }
