@@ -43,6 +43,10 @@ std::vector<std::string> knob_choices(const scene::KnobInfo& knob) {
             "rotated-8", "rotated-16", "rotated-64", "random-4", "random-16", "random-64",
             "msaa-2",    "msaa-4",     "msaa-8",     "fxaa",     "taa"};
   }
+  if (knob.name == "subdivide") {
+    return {"1",       "2",       "3",       "4",       "6",       "8",       "16",     "size-64",
+            "size-32", "size-16", "error-8", "error-4", "error-2", "error-1"};
+  }
   if (knob.name == "size") {
     std::vector<std::string> sizes;
     for (const auto* height : {"x240", "x480"}) {
@@ -57,7 +61,7 @@ std::vector<std::string> knob_choices(const scene::KnobInfo& knob) {
 
 std::optional<KnobRange> knob_range(const scene::KnobInfo& knob) {
   const auto dots = knob.values.find("..");
-  if (dots == string_view::npos) return std::nullopt;
+  if (dots == string_view::npos || knob.values.find('|') != string_view::npos) return std::nullopt;
   KnobRange range{0, 0, knob.values.find('e') == string_view::npos};
   std::from_chars(knob.values.data(), knob.values.data() + dots, range.low);
   std::from_chars(knob.values.data() + dots + 2, knob.values.data() + knob.values.size(), range.high);

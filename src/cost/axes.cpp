@@ -73,6 +73,8 @@ std::vector<Axis> make_axes() {
        Measure::texel,
        {texture("affine", "affine", "1", true), texture("affine 2x2", "affine", "2", false),
         texture("affine 4x4", "affine", "4", true), texture("affine 8x8", "affine", "8", false),
+        texture("affine size-32", "affine", "size-32", false),
+        texture("affine error-1", "affine", "error-1", true),
         texture("perspective", "perspective", "1", true)},
        0,
        false},

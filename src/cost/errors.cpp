@@ -181,7 +181,7 @@ scene::Result<Distance> ErrorMeter::texel(const scene::Knobs& knobs) {
   if (const auto found = texels_.find(key); found != texels_.end()) return found->second;
   scene::Knobs exact = knobs;
   exact.texture = scene::TextureAddress::perspective;
-  exact.subdivide = 1;
+  exact.subdivide = {};
   exact.position = scene::Position::fine;
   exact.transform = scene::Transform::float64;
   const auto ours = subject_.trace_canvas(knobs);

@@ -19,7 +19,7 @@ double now_ms() {
 Subject::Subject(scene::Scene scene, std::uint32_t frame) : scene_(std::move(scene)), frame_(frame) {}
 
 scene::FrameBuilder& Subject::builder(const scene::Knobs& knobs) {
-  auto& made = builders_[{knobs.width, knobs.height, knobs.subdivide}];
+  auto& made = builders_[{knobs.width, knobs.height, knobs.subdivide.pieces()}];
   if (!made) made = std::make_unique<scene::FrameBuilder>(scene_, knobs);
   if (uploaded_ != made.get()) {
     made->upload(*gpu_);

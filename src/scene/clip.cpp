@@ -33,10 +33,17 @@ Clipper::Clipper(const Projection& p, bool whole) : near_z_(p.near_z), whole_(wh
 ClipVertex Clipper::cut(const Plane& plane, const ClipVertex& a, const ClipVertex& b, double at_a,
                         double at_b) const {
   if (comes_first(b.position, a.position)) return cut(plane, b, a, at_b, at_a);
-  const double t = at_a / (at_a - at_b);
+  return point_on(a, b, at_a / (at_a - at_b), &plane == &planes_[0]);
+}
+
+ClipVertex Clipper::middle(const ClipVertex& a, const ClipVertex& b) const {
+  return comes_first(b.position, a.position) ? point_on(b, a, 0.5, false) : point_on(a, b, 0.5, false);
+}
+
+ClipVertex Clipper::point_on(const ClipVertex& a, const ClipVertex& b, double t, bool near_plane) const {
   ClipVertex out;
   glm::dvec3 p = a.position + (b.position - a.position) * t;
-  if (&plane == &planes_[0]) p.z = near_z_;
+  if (near_plane) p.z = near_z_;
   p.z = std::clamp(p.z, near_z_, farthest);
   if (whole_) {
     // The point moves along its line of sight to the next whole z, so that only the

@@ -45,6 +45,9 @@ class Clipper {
   /// left: nothing if fewer than three (two) vertices are inside.
   void clip(ClipPolygon& in, ClipPolygon& out) const;
 
+  /// The point half way along an edge whose ends are inside; the same from both ends.
+  [[nodiscard]] ClipVertex middle(const ClipVertex& a, const ClipVertex& b) const;
+
   /// A plane that the whole polygon is beyond, or nothing. Exact for the picture's sides, margin included,
   /// also for vertices that cannot be projected.
   [[nodiscard]] Beyond wholly_beyond(const ClipPolygon& polygon) const;
@@ -59,6 +62,8 @@ class Clipper {
   };
   [[nodiscard]] ClipVertex cut(const Plane& plane, const ClipVertex& a, const ClipVertex& b, double at_a,
                                double at_b) const;
+  [[nodiscard]] ClipVertex point_on(const ClipVertex& a, const ClipVertex& b, double t,
+                                    bool near_plane) const;
 
   std::array<Plane, clip_planes> planes_;
   std::array<Plane, 4> picture_;

@@ -75,7 +75,7 @@ struct FrameBuilder::State {
   void prepare(const Knobs& knobs) {
     width = knobs.width;
     height = knobs.height;
-    subdivide = knobs.subdivide;
+    subdivide = knobs.subdivide.pieces();
     report.clear();
     move(0);
     units = choose_units(world);
@@ -144,7 +144,10 @@ struct FrameBuilder::State {
     placement.projection = view.projection;
     placement.transform = knobs.transform;
     if (wanted.fog) set_depth_cue(placement.registers, world.depth_cue, view);
+    std::optional<Halver> halver;
+    if (knobs.subdivide.by != SubdivideBy::pieces) halver.emplace(knobs.subdivide, view.projection, clipper);
     Submission submission;
+    submission.halver = halver ? &*halver : nullptr;
     submission.placement = &placement;
     submission.projected = &projected;
     submission.materials = materials;
@@ -270,7 +273,7 @@ void FrameBuilder::set_camera(const Camera* camera) {
 
 bool FrameBuilder::needs_upload(const Knobs& knobs) const {
   return knobs.width != state_->width || knobs.height != state_->height ||
-         knobs.subdivide != state_->subdivide;
+         knobs.subdivide.pieces() != state_->subdivide;
 }
 
 void FrameBuilder::prepare(const Knobs& knobs) {

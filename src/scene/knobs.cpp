@@ -134,6 +134,31 @@ bool set_size(Knobs& knobs, string_view value) {
   return true;
 }
 
+struct SubdivideWord {
+  string_view prefix;
+  int low, high;
+};
+constexpr std::array subdivide_words{
+    // in the order of SubdivideBy
+    SubdivideWord{"", 1, 16}, SubdivideWord{"size-", 4, 1024}, SubdivideWord{"error-", 1, 64}};
+
+std::string get_subdivide(const Knobs& knobs) {
+  const auto& word = subdivide_words[static_cast<std::size_t>(knobs.subdivide.by)];
+  return std::string(word.prefix) + std::to_string(knobs.subdivide.n);
+}
+
+bool set_subdivide(Knobs& knobs, string_view value) {
+  for (std::size_t i = 0; i < subdivide_words.size(); ++i) {
+    const auto& word = subdivide_words[i];
+    if (!value.starts_with(word.prefix)) continue;
+    const auto number = parse<int>(value.substr(word.prefix.size()));
+    if (!number || *number < word.low || *number > word.high) continue;
+    knobs.subdivide = {static_cast<SubdivideBy>(i), *number};
+    return true;
+  }
+  return false;
+}
+
 struct AntialiasWord {
   string_view prefix;
   AntialiasKind kind;
@@ -207,8 +232,9 @@ constexpr std::array table{
     KnobInfo{"position", "integer|4|16|256", "vertex positions are multiples of 1, 1/4, 1/16 or 1/256 pixel",
              WORD(position)},
     KnobInfo{"texture", "affine|perspective", "interpolation of texture coordinates", WORD(texture)},
-    KnobInfo{"subdivide", "1..16", "textured polygons are drawn as n x n pieces", get_int<&Knobs::subdivide>,
-             set_int<&Knobs::subdivide, 1, 16>},
+    KnobInfo{"subdivide", "1..16|size-4..1024|error-1..64",
+             "polygons are drawn as n x n pieces, or halved by size or affine error in pixels", get_subdivide,
+             set_subdivide},
     KnobInfo{"filter", "nearest|bilinear|mipmap|mipmap-linear", "texture filter", WORD(filter)},
     KnobInfo{"colour", "15|15-dither|24", "bits of a pixel", WORD(colour)},
     KnobInfo{"antialias", "none|ssaa-NxN|rotated-N|random-N|msaa-N|fxaa|taa", "how edges are smoothed",

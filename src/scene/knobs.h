@@ -37,6 +37,20 @@ struct Antialias {
   bool operator==(const Antialias&) const = default;
 };
 
+/// How polygons are cut, so that affine texture coordinates bend less.
+enum class SubdivideBy : std::uint8_t {
+  pieces,  ///< into n x n, once and for all
+  size,    ///< in halves until no edge is longer than n pixels on the screen
+  error,   ///< in halves until affine interpolation moves no edge's middle by more than n pixels
+};
+struct Subdivide {
+  SubdivideBy by = SubdivideBy::pieces;
+  int n = 1;  ///< pieces: 1..16; size: 4..1024; error: 1..64
+  bool operator==(const Subdivide&) const = default;
+  /// What is cut before any frame: n x n.
+  [[nodiscard]] int pieces() const { return by == SubdivideBy::pieces ? n : 1; }
+};
+
 /// All knobs, at the console's settings.
 struct Knobs {
   Visibility visibility = Visibility::ot;
@@ -54,7 +68,7 @@ struct Knobs {
   Transform transform = Transform::gte;
   Position position = Position::integer;
   TextureAddress texture = TextureAddress::affine;
-  int subdivide = 1;  ///< n x n pieces of every textured polygon, 1..16
+  Subdivide subdivide{};
   Filter filter = Filter::nearest;
   Colour colour = Colour::bits15_dither;
   Antialias antialias{};

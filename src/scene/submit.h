@@ -2,6 +2,7 @@
 // Faces of one instance become primitives: cull, clip, give a key, hand over. Everything that orders or
 // stores primitives is a sink behind this; nothing here knows of tables or memory.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -10,6 +11,7 @@
 #include "ot/packet.h"
 #include "scene/clip.h"
 #include "scene/frame.h"
+#include "scene/halve.h"
 #include "scene/knobs.h"
 #include "scene/project.h"
 #include "scene/texture.h"
@@ -65,7 +67,8 @@ struct Submission {
   std::span<const gte::Colour> colours;
   std::span<const PacketMaterial> materials;
   const Clipper* clipper = nullptr;
-  bool mirrored = false;  ///< the instance turns fronts into backs
+  const Halver* halver = nullptr;  ///< nullptr: faces are drawn as they are
+  bool mirrored = false;           ///< the instance turns fronts into backs
   Key key = Key::average;
   std::uint32_t instance = 0;
   /// Bits of the fractions that will be drawn. Which way a face turns is judged where its corners will be: a
@@ -103,7 +106,11 @@ class Submitter {
     p.gouraud = face.gouraud;
     p.instance = s_.instance;
     p.face = face.source;
-    if ((any & outcode::unprojectable) != 0) return submit_clipped(face, p);
+    if ((any & outcode::unprojectable) != 0) {
+      ++stats_.clipped;
+      return submit_cut(face, p);
+    }
+    if (s_.halver != nullptr && is_halved(face)) return submit_cut(face, p);
     for (std::size_t k = 0; k < n; ++k) p.corner[k] = corner_of(face.vertex[k], face.colour[k], face.uv[k]);
     p.count = n;
     if (n == 3) {
@@ -145,7 +152,7 @@ class Submitter {
   }
 
   // The halves of a quad are cut one by one: they need not lie in one plane, and each has its own back.
-  void submit_clipped(const ModelFace& face, Primitive& p) {
+  void submit_cut(const ModelFace& face, Primitive& p) {
     constexpr std::array<std::array<std::size_t, 3>, 2> halves{{{0, 1, 2}, {2, 1, 3}}};
     bool drawn = false;
     Drop why = Drop::back_face;
@@ -163,22 +170,39 @@ class Submitter {
       if (clipped_.count < 3) why = Drop::outside;
       drawn = submit_fan(p) || drawn;
     }
-    if (!drawn) return drop(why);
-    ++stats_.clipped;
+    if (!drawn) drop(why);
   }
 
   bool submit_fan(Primitive& p) {
     bool drawn = false;
     p.count = 3;
-    std::array<Corner, 4 + clip_planes> corners;
-    for (std::size_t k = 0; k < clipped_.count; ++k) corners[k] = corner_of(clipped_.vertex[k]);
-    for (std::size_t k = 2; k < clipped_.count; ++k) {
-      if (!faces_us(corners[0], corners[k - 1], corners[k], *p.material)) continue;
-      p.corner = {corners[0], corners[k - 1], corners[k], Corner{}};
+    const auto draw = [&](const Corner& a, const Corner& b, const Corner& c) {
+      if (!faces_us(a, b, c, *p.material)) return;
+      p.corner = {a, b, c, Corner{}};
       emit(p);
       drawn = true;
+    };
+    const auto& v = clipped_.vertex;
+    if (s_.halver != nullptr) {
+      const auto piece = [&](const ClipVertex& a, const ClipVertex& b, const ClipVertex& c) {
+        draw(corner_of(a), corner_of(b), corner_of(c));
+      };
+      for (std::size_t k = 2; k < clipped_.count; ++k) s_.halver->triangle(v[0], v[k - 1], v[k], piece);
+      return drawn;
     }
+    std::array<Corner, 4 + clip_planes> corners;
+    for (std::size_t k = 0; k < clipped_.count; ++k) corners[k] = corner_of(v[k]);
+    for (std::size_t k = 2; k < clipped_.count; ++k) draw(corners[0], corners[k - 1], corners[k]);
     return drawn;
+  }
+
+  // A quad is drawn as two triangles, so its diagonal counts like its edges.
+  [[nodiscard]] bool is_halved(const ModelFace& face) const {
+    constexpr std::array<std::array<std::size_t, 2>, 5> edges{{{0, 1}, {1, 2}, {2, 0}, {1, 3}, {3, 2}}};
+    return std::any_of(edges.begin(), edges.begin() + (face.is_quad() ? 5 : 3), [&](const auto& edge) {
+      return s_.halver->halves(s_.placement->view_position(face.vertex[edge[0]]),
+                               s_.placement->view_position(face.vertex[edge[1]]));
+    });
   }
 
   bool clip(ClipPolygon& line) {

@@ -140,7 +140,7 @@ TEST_SUITE("demos") {
     scene::Knobs depth;
     depth.visibility = scene::Visibility::zbuffer;
     const auto errors = [&](int subdivide) {
-      table.subdivide = depth.subdivide = subdivide;
+      table.subdivide.n = depth.subdivide.n = subdivide;
       Show show("corridor", table);
       int sum = 0;
       for (const std::uint32_t n : {0U, 120U, 240U, 360U, 480U}) {

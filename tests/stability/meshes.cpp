@@ -150,7 +150,7 @@ TEST_SUITE("stability") {
         auto scene = crumpled_wall(random);
         scene.world.units_per_world = 3000;
         scene::Knobs knobs;
-        knobs.subdivide = n;
+        knobs.subdivide.n = n;
         wrong.see(wrong_pixels(scene, knobs), static_cast<std::uint64_t>(cells * cells * n * n));
       }
     }
@@ -189,9 +189,9 @@ TEST_SUITE("stability") {
       const auto place = [&] { return static_cast<float>(between(random, -400, 400)) / 1000.0F; };
       camera.position = {place(), place(), place()};
       scene::Knobs knobs;
-      knobs.subdivide = 1 + i % 4;
+      knobs.subdivide.n = 1 + i % 4;
       CAPTURE(i);
-      const auto pieces = static_cast<std::uint64_t>(6 * n * n * knobs.subdivide * knobs.subdivide);
+      const auto pieces = static_cast<std::uint64_t>(6 * n * n * knobs.subdivide.n * knobs.subdivide.n);
       wrong.see(wrong_pixels(scene, knobs), pieces);
       if (i % 3 == 2) continue;
       knobs.transform = scene::Transform::float64;
