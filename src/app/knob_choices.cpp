@@ -44,8 +44,8 @@ std::vector<std::string> knob_choices(const scene::KnobInfo& knob) {
             "msaa-2",    "msaa-4",     "msaa-8",     "fxaa",     "taa"};
   }
   if (knob.name == "subdivide") {
-    return {"1",       "2",       "3",       "4",       "6",       "8",       "16",     "size-64",
-            "size-32", "size-16", "error-8", "error-4", "error-2", "error-1"};
+    return {"1",       "2",       "3",       "4",       "6",       "8",       "16",
+            "size-64", "size-32", "size-16", "error-8", "error-4", "error-2", "error-1"};
   }
   if (knob.name == "size") {
     std::vector<std::string> sizes;
