@@ -102,7 +102,11 @@ class Labels {
 /// 1, 2, 5, 10 ... inside the range, as gnuplot wants its tics.
 std::string tics(const Scale& scale) {
   std::string list;
-  for (double decade = std::pow(10, std::floor(std::log10(scale.low))); decade <= scale.high; decade *= 10) {
+  if (!(scale.low > 0) || scale.high < scale.low) return "()";  // no dots
+  const int first = static_cast<int>(std::floor(std::log10(scale.low)));
+  const int last = static_cast<int>(std::floor(std::log10(scale.high)));
+  for (int exponent = first; exponent <= last; ++exponent) {
+    const double decade = std::pow(10, exponent);
     for (const double digit : {1.0, 2.0, 5.0}) {
       const double v = decade * digit;
       if (v < scale.low * 0.999 || v > scale.high * 1.001) continue;
