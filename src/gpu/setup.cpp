@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/kernels.h"
+#include "gpu/texture_page.h"
 #include "ot/gp0.h"
 
 namespace gpu {
@@ -12,9 +13,6 @@ namespace {
 std::uint16_t pack_flat(const Vertex& vertex) {
   return static_cast<std::uint16_t>(vertex.r >> 3 | vertex.g >> 3 << 5 | vertex.b >> 3 << 10);
 }
-
-/// Halfwords a row of a texture page takes, and how far the column wraps.
-int page_width(TexelFormat format) { return 64 << static_cast<int>(format); }
 
 }  // namespace
 
@@ -56,7 +54,8 @@ bool has_adjacent_texels(const Job& job, Texture texture) {
   if (texture == Texture::none || job.texel.u.dx != one || job.texel.v.dx != 0) return false;
   const TexturePage& page = job.page;
   const bool has_window = page.keep_u != 0xff || page.keep_v != 0xff || page.set_u != 0 || page.set_v != 0;
-  const int width = 64 << (static_cast<int>(texture) - static_cast<int>(Texture::clut4));
+  const int width =
+      page_width(static_cast<TexelFormat>(static_cast<int>(texture) - static_cast<int>(Texture::clut4)));
   return !has_window && static_cast<int>(page.x) + width <= Vram::width;
 }
 

@@ -6,6 +6,7 @@
 
 #include "gpu/kernels.h"
 #include "gpu/raster.h"
+#include "gpu/texture_page.h"
 #include "ot/gp0.h"
 
 namespace gpu {
@@ -53,7 +54,7 @@ void ClutCache::use(const Vram& vram, std::uint16_t clut, TexelFormat format) {
   ++loads_;
   const int x = static_cast<int>(ot::gp0::clut::X16::get(clut)) * 16;
   const int y = static_cast<int>(ot::gp0::clut::Y::get(clut));
-  for_each_piece(x, y, format == TexelFormat::clut4 ? 16 : 256, [&](int px, int py, int first, int count) {
+  for_each_piece(x, y, palette_size(format), [&](int px, int py, int first, int count) {
     std::copy_n(vram.pixels().data() + Vram::offset(px, py), count, entries_.begin() + first);
   });
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "gpu/canvas/texel.h"
+#include "gpu/texture_page.h"
 
 namespace gpu::canvas {
 namespace {
@@ -22,15 +23,6 @@ Pixel mean(const std::array<Pixel, 4>& four) {
   Pixel result = texel_solid | (2 * semi > solid ? texel_semi : 0);
   for (unsigned c = 0; c < 3; ++c) result |= (sums[c] + solid / 2) / solid << (8 * c);
   return result;
-}
-
-constexpr std::ptrdiff_t palette_size(TexelFormat format) {
-  return format == TexelFormat::clut4 ? 16 : format == TexelFormat::clut8 ? 256 : 0;
-}
-
-/// Pixels of VRAM that hold 256 texels side by side.
-constexpr int page_width(TexelFormat format) {
-  return format == TexelFormat::clut4 ? 64 : format == TexelFormat::clut8 ? 128 : 256;
 }
 
 /// Do `a` and the `a_length` after it meet `b` and the `b_length` after it, on a ring of `size` (a power of
