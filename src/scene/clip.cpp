@@ -90,10 +90,9 @@ void Clipper::clip(ClipPolygon& in, ClipPolygon& out) const {
   if (from != &out) out = *from;
 }
 
-Beyond Clipper::wholly_beyond(const ClipPolygon& polygon) const {
+Beyond Clipper::wholly_beyond(std::span<const ClipVertex> polygon) const {
   const auto all_outside = [&](const Plane& plane) {
-    return std::all_of(polygon.vertex.begin(),
-                       polygon.vertex.begin() + static_cast<std::ptrdiff_t>(polygon.count),
+    return std::all_of(polygon.begin(), polygon.end(),
                        [&](const ClipVertex& v) { return plane.distance(v.position) < 0; });
   };
   if (all_outside(planes_[0])) return Beyond::near_plane;

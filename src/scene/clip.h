@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <span>
 
 #include "scene/view.h"
 
@@ -31,6 +32,7 @@ struct ClipPolygon {
   std::array<ClipVertex, 4 + clip_planes> vertex;
   std::size_t count = 0;
   void add(const ClipVertex& v) { vertex[count++] = v; }
+  [[nodiscard]] std::span<const ClipVertex> corners() const { return std::span(vertex).first(count); }
 };
 
 /// Which side of the picture or range a whole polygon may lie on.
@@ -50,7 +52,7 @@ class Clipper {
 
   /// A plane that the whole polygon is beyond, or nothing. Exact for the picture's sides, margin included,
   /// also for vertices that cannot be projected.
-  [[nodiscard]] Beyond wholly_beyond(const ClipPolygon& polygon) const;
+  [[nodiscard]] Beyond wholly_beyond(std::span<const ClipVertex> polygon) const;
 
  private:
   struct Plane {

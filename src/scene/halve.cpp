@@ -14,12 +14,6 @@ bool Halver::halves(glm::dvec3 a, glm::dvec3 b) const {
   return length * std::abs(a.z - b.z) > limit_ * 2 * (a.z + b.z);
 }
 
-bool Halver::is_outside(const Three& t) const {
-  ClipPolygon polygon;
-  for (const auto& v : t) polygon.add(v);
-  return clipper_.wholly_beyond(polygon) != Beyond::nothing;
-}
-
 bool Halver::middle_of(const ClipVertex& a, const ClipVertex& b, ClipVertex& middle) const {
   if (!halves(a.position, b.position)) return false;
   middle = clipper_.middle(a, b);

@@ -38,7 +38,6 @@ class Halver {
 
   template <class Draw>
   void pieces(const Three& t, const Draw& draw, int depth) const;
-  [[nodiscard]] bool is_outside(const Three& t) const;
   /// Not where rounding would put the middle on an end.
   [[nodiscard]] bool middle_of(const ClipVertex& a, const ClipVertex& b, ClipVertex& middle) const;
 
@@ -49,7 +48,7 @@ class Halver {
 
 template <class Draw>
 void Halver::pieces(const Three& t, const Draw& draw, int depth) const {
-  if (depth > 0 && is_outside(t)) return;
+  if (depth > 0 && clipper_.wholly_beyond(t) != Beyond::nothing) return;
   Three middle;  // of the edge from corner k to the next
   std::array<bool, 3> has{};
   std::size_t count = 0;

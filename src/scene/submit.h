@@ -159,7 +159,7 @@ class Submitter {
     for (std::size_t half = 0; half < (face.is_quad() ? 2U : 1U); ++half) {
       ClipPolygon in;
       for (const auto k : halves[half]) in.add(clip_vertex(face.vertex[k], face.colour[k], face.uv[k]));
-      const Beyond beyond = s_.clipper->wholly_beyond(in);
+      const Beyond beyond = s_.clipper->wholly_beyond(in.corners());
       if (beyond != Beyond::nothing) {
         why = beyond == Beyond::near_plane  ? Drop::near_plane
               : beyond == Beyond::far_plane ? Drop::far_plane
@@ -206,7 +206,7 @@ class Submitter {
   }
 
   bool clip(ClipPolygon& line) {
-    const Beyond beyond = s_.clipper->wholly_beyond(line);
+    const Beyond beyond = s_.clipper->wholly_beyond(line.corners());
     if (beyond == Beyond::near_plane) return drop(Drop::near_plane), false;
     if (beyond == Beyond::far_plane) return drop(Drop::far_plane), false;
     s_.clipper->clip(line, clipped_);

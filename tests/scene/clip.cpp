@@ -79,7 +79,7 @@ TEST_SUITE("scene") {
   TEST_CASE("a triangle behind the near plane leaves nothing, and is known to be wholly behind it") {
     ClipPolygon in = polygon({vertex(0, 0, 46), vertex(100, 0, -246), vertex(-100, 0, 145)});
     const Clipper clipper(projection(), true);
-    CHECK(clipper.wholly_beyond(in) == scene::Beyond::near_plane);
+    CHECK(clipper.wholly_beyond(in.corners()) == scene::Beyond::near_plane);
     ClipPolygon out;
     clipper.clip(in, out);
     CHECK(out.count == 0);
@@ -87,11 +87,14 @@ TEST_SUITE("scene") {
 
   TEST_CASE("a triangle beyond one side of the picture is known, also if a vertex is behind the camera") {
     const Clipper clipper(projection(), true);
-    CHECK(clipper.wholly_beyond(polygon({vertex(4000, 0, 500), vertex(5000, 0, -500),
-                                         vertex(4000, 90, 300)})) == scene::Beyond::picture);
-    CHECK(clipper.wholly_beyond(polygon({vertex(-4000, 0, 500), vertex(5000, 0, 500), vertex(0, 90, 300)})) ==
+    CHECK(clipper.wholly_beyond(
+              polygon({vertex(4000, 0, 500), vertex(5000, 0, -500), vertex(4000, 90, 300)}).corners()) ==
+          scene::Beyond::picture);
+    CHECK(clipper.wholly_beyond(
+              polygon({vertex(-4000, 0, 500), vertex(5000, 0, 500), vertex(0, 90, 300)}).corners()) ==
           scene::Beyond::nothing);
-    CHECK(clipper.wholly_beyond(polygon({vertex(0, 0, 65536), vertex(9, 0, 70000), vertex(9, 9, 99999)})) ==
+    CHECK(clipper.wholly_beyond(
+              polygon({vertex(0, 0, 65536), vertex(9, 0, 70000), vertex(9, 9, 99999)}).corners()) ==
           scene::Beyond::far_plane);
   }
 
