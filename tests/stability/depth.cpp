@@ -72,6 +72,24 @@ double z_at(const Triangle& t, int x, int y) {
 /// Stored depth as a number that grows by one from one representable depth to the next.
 double steps(std::uint32_t stored) { return stored; }
 
+/// How far stored depths of a rectangle are apart when it is cut along one diagonal and along the other.
+/// Corners: top left at 0, 0, top right, bottom left, bottom right.
+double between_diagonals(const DepthOptions& options, const std::array<Corner, 4>& c) {
+  const auto one = with_depth(options), two = with_depth(options);
+  draw(*one, {c[0], c[1], c[2]});
+  draw(*one, {c[1], c[3], c[2]});
+  draw(*two, {c[0], c[1], c[3]});
+  draw(*two, {c[0], c[3], c[2]});
+  double worst = 0;
+  for (int y = 0; y < c[3].y; ++y) {
+    for (int x = 0; x < c[3].x; ++x) {
+      worst = std::max(
+          worst, std::abs(steps(one->depth_plane()->stored(x, y)) - steps(two->depth_plane()->stored(x, y))));
+    }
+  }
+  return worst;
+}
+
 std::vector<DepthOptions> formats() {
   std::vector<DepthOptions> all;
   for (const auto format :
@@ -153,18 +171,7 @@ TEST_SUITE("stability") {
         return Corner{x, y, scene::round_saturated<std::uint32_t>(4096 / (a + dx * x + dy * y))};
       };
       const Corner p = corner(0, 0), q = corner(width, 0), r = corner(0, height), s = corner(width, height);
-      const auto one = with_depth({}), two = with_depth({});
-      draw(*one, {p, q, r});
-      draw(*one, {q, s, r});
-      draw(*two, {p, q, s});
-      draw(*two, {p, s, r});
-      double worst = 0;
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          worst = std::max(worst, std::abs(steps(one->depth_plane()->stored(x, y)) -
-                                           steps(two->depth_plane()->stored(x, y))));
-        }
-      }
+      const double worst = between_diagonals({}, {p, q, r, s});
       (flat ? exact : sloped)
           .see(worst, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
     }
@@ -199,18 +206,7 @@ TEST_SUITE("stability") {
       };
       const int width = between(random, 8, 300), height = between(random, 8, 230);
       const Corner p = corner(0, 0), q = corner(width, 0), r = corner(0, height), s = corner(width, height);
-      const auto one = with_depth(options), two = with_depth(options);
-      draw(*one, {p, q, r});
-      draw(*one, {q, s, r});
-      draw(*two, {p, q, s});
-      draw(*two, {p, s, r});
-      double worst = 0;
-      for (int y = 0; y < height; ++y) {
-        for (int x = 0; x < width; ++x) {
-          worst = std::max(worst, std::abs(steps(one->depth_plane()->stored(x, y)) -
-                                           steps(two->depth_plane()->stored(x, y))));
-        }
-      }
+      const double worst = between_diagonals(options, {p, q, r, s});
       const double bound = per_unit * (std::abs(dx) + std::abs(dy)) + 1 + 2 * rounding;
       apart.see(worst / bound, static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height));
     }
