@@ -2,6 +2,8 @@
 
 #include "gpu/kernels.h"
 
+#include <algorithm>
+#include <atomic>
 #include <type_traits>
 #include <utility>
 
@@ -445,12 +447,15 @@ bool is_supported(const Target& target) {
   return target.id == HWY_STATIC_TARGET || (hwy::SupportedTargets() & target.id) != 0;
 }
 
-/// Read for every primitive: a plain pointer, set when first asked for.
-const Target* chosen = nullptr;
+/// Read for every primitive, set when first asked for. Two threads that ask at once find the same one, and
+/// what it points to is constant, so a relaxed load, which costs what a plain one does, is enough.
+std::atomic<const Target*> chosen = nullptr;
 
 const Target& target() {
-  if (chosen == nullptr) chosen = std::find_if(std::begin(targets), std::end(targets), is_supported);
-  return *chosen;
+  if (const Target* known = chosen.load(std::memory_order_relaxed)) return *known;
+  const Target* best = std::find_if(std::begin(targets), std::end(targets), is_supported);
+  chosen.store(best, std::memory_order_relaxed);
+  return *best;
 }
 
 }  // namespace
@@ -470,7 +475,7 @@ std::vector<std::string_view> target_names() {
 bool use_target(std::string_view name) {
   for (const Target& candidate : targets) {
     if (!is_supported(candidate) || name != hwy::TargetName(candidate.id)) continue;
-    chosen = &candidate;
+    chosen.store(&candidate, std::memory_order_relaxed);
     return true;
   }
   return false;
