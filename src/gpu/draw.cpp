@@ -211,6 +211,12 @@ void Gpu::begin_download(const std::uint32_t* words) {
 
 /// The words are a stream of halfwords; only the last of an odd number is not a pixel.
 const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* end) {
+  // A frame, and its trace, may begin anew while an upload is open: the rest is then the first draw of the
+  // new one.
+  if (trace_ != nullptr && trace_->draws.size() <= upload_.draw) {
+    trace_->draws.push_back(current_);
+    upload_.draw = current_draw();
+  }
   Surface target = surface();
   target.draw = upload_.draw;
   const std::int64_t pixels = std::min<std::int64_t>(upload_.pixels_left(), 2 * (end - at));

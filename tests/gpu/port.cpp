@@ -200,6 +200,24 @@ TEST_SUITE("gpu") {
     CHECK(filled(9));
   }
 
+  TEST_CASE("An upload that is open when a trace begins anew goes on as the first draw of the new one") {
+    gpu::Gpu gpu;
+    gpu::Trace trace;
+    trace.keep_history = true;
+    gpu.set_trace(&trace);
+    gpu.gp0(std::vector<std::uint32_t>{0x02000000, 0,
+                                       0x00010010});  // a draw before, so that the upload is number 1
+    gpu.gp0(std::vector<std::uint32_t>{0xa0000000, 0, 0x00010004, 0x00020001});
+    trace.clear();
+    gpu.gp0(std::vector<std::uint32_t>{0x00040003});
+    REQUIRE(trace.draws.size() == 1);
+    CHECK(trace.draws[0].kind == gpu::Kind::upload);
+    CHECK(trace.last_writer[1] == 0);  // written before the trace began
+    CHECK(trace.last_writer[2] == 1);
+    REQUIRE(trace.history.size() == 2);
+    CHECK(trace.history[1].draw == 0);
+  }
+
   TEST_CASE("Any words whatever leave the GPU standing") {
     tests::RandomWords random(1234);
     const auto gpu = std::make_unique<gpu::Gpu>();
