@@ -61,7 +61,14 @@ scene::Result<void> save(const Options& options, const gpu::Gpu& gpu,
     if (auto written = save_vram(options.vram, gpu.vram()); !written) return written;
   }
   if (!options.output.empty()) {
-    const auto picture = display::scan_out(gpu.vram().pixels(), display::area_of(gpu.display()));
+    const display::Area area = display::area_of(gpu.display());
+    if (area.width <= 0 || area.height <= 0) {
+      return scene::fail(options.output + ": the dump leaves an empty display area (" +
+                             std::to_string(area.width) + " x " + std::to_string(area.height) +
+                             " pixels), expected GP1(06h) and GP1(07h) with a range; --vram has the rest",
+                         scene::Exit::failed);
+    }
+    const auto picture = display::scan_out(gpu.vram().pixels(), area);
     if (auto written = display::write_png(options.output, picture); !written) return written;
   }
   if (options.readback.empty()) return {};

@@ -214,4 +214,19 @@ TEST_SUITE("otter") {
     CHECK(mentions(refused.err, "polygons without depth"));
     CHECK_FALSE(folder.has("c.bin"));
   }
+
+  TEST_CASE("an empty display area has no picture: exit 1 and one line, and --vram is written") {
+    const Folder folder;
+    gpu::Dump dump;
+    dump.add(PacketType::gpu_version, Words{2});
+    dump.add(PacketType::port1, Words{0x07000000});  // the display ends on the row where it begins
+    folder.put("d.psxgpu", file_of(dump));
+    const auto replayed = folder.otter("replay d.psxgpu -o o.png --vram v.bin");
+    CAPTURE(replayed.err);
+    CHECK(replayed.status == 1);
+    CHECK(is_one_line(replayed.err));
+    CHECK(mentions(replayed.err, "empty display area"));
+    CHECK(folder.has("v.bin"));
+    CHECK_FALSE(folder.has("o.png"));
+  }
 }
