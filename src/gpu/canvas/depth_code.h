@@ -2,6 +2,7 @@
 // 1/z to a depth key, per sample: the formulas of gpu/depth.h arranged so that the pixel loop multiplies and
 // adds only. 1/z is what is affine on the screen.
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -12,30 +13,17 @@ namespace gpu::canvas {
 
 class DepthCode {
  public:
-  static constexpr std::uint32_t empty = 0xffffffff;  ///< loses to every fragment
+  static constexpr std::uint32_t empty = DepthPlane::empty;  ///< loses to every fragment
 
   DepthCode() = default;
   explicit DepthCode(const DepthOptions& options)
       : linear_(options.mapping == DepthMapping::linear),
         float_(options.format == DepthFormat::float32),
         reversed_(options.reversed),
-        accepts_equal_(options.test == DepthTest::lequal) {
+        accepts_equal_(options.test == DepthTest::lequal),
+        scale_(depth_scale(options.format)) {
     const double near = options.near_z;
     const double range = options.far_z - near;
-    switch (options.format) {
-      case DepthFormat::bits16:
-        scale_ = 65535;
-        break;
-      case DepthFormat::bits24:
-        scale_ = 16777215;
-        break;
-      case DepthFormat::bits32:
-        scale_ = 4294967294.0;
-        break;  // the last code is `empty`
-      case DepthFormat::float32:
-        scale_ = 1;
-        break;
-    }
     // t = constant + slope * (z or 1/z); reversed formats store 1 - t, whose own
     // formula keeps float32 precise.
     if (linear_) {
@@ -56,7 +44,7 @@ class DepthCode {
       return reversed_ ? one_as_float - bits : bits;
     }
     const auto code = static_cast<std::uint32_t>(saturated * scale_ + 0.5);
-    return reversed_ ? static_cast<std::uint32_t>(scale_) - code : code;
+    return std::min(reversed_ ? static_cast<std::uint32_t>(scale_) - code : code, DepthPlane::farthest);
   }
 
   [[nodiscard]] bool passes(std::uint32_t key, std::uint32_t stored) const {
