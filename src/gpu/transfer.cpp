@@ -93,8 +93,8 @@ void store_row(const Surface& surface, const DrawState& state, int x, int y, con
   });
 }
 
-/// Rows from the top; a row is read whole before it is written, so that overlap inside it does no harm and
-/// overlap downwards smears. [ps1-tests vram-to-vram-overlap]
+/// Overlap downwards smears, and so does overlap to the right over more than a piece. [ps1-tests
+/// vram-to-vram-overlap]
 void copy_rectangle(const Surface& surface, const Primitive& primitive) {
   const Vertex &to = primitive.vertices[0], &from = primitive.vertices[1];
   const int width = primitive.width, height = primitive.height;
@@ -102,16 +102,21 @@ void copy_rectangle(const Surface& surface, const Primitive& primitive) {
   const bool wraps =
       std::max(to.x, from.x) + width > Vram::width || std::max(to.y, from.y) + height > Vram::height;
   if (!wraps && is_plain(surface, primitive.state)) {
-    operations().copy(&vram.at(to.x, to.y), &vram.at(from.x, from.y), width, height);
+    // In different rows pieces cannot meet; in the same ones rows cannot.
+    const int piece = to.y == from.y ? copied_at_once : width;
+    for (int x = 0; x < width; x += piece) {
+      operations().copy(&vram.at(to.x + x, to.y), &vram.at(from.x + x, from.y), std::min(piece, width - x),
+                        height);
+    }
     return;
   }
   PixelRow row;
-  for (int j = 0; j < height; ++j) {
-    for_each_piece(from.x, from.y + j, width, [&](int px, int py, int first, int piece) {
+  for_each_copied_piece(primitive, [&](int x, int y, int count) {
+    for_each_piece(from.x + x, from.y + y, count, [&](int px, int py, int first, int piece) {
       std::copy_n(&vram.at(px, py), piece, row.begin() + first);
     });
-    store_row(surface, primitive.state, to.x, to.y + j, row, width);
-  }
+    store_row(surface, primitive.state, to.x + x, to.y + y, row, count);
+  });
 }
 
 }  // namespace gpu

@@ -1,11 +1,12 @@
 #pragma once
 // A rectangle of VRAM that is being filled, copied, sent or received, and the cache of one palette.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-#include "gpu/state.h"
+#include "gpu/primitive.h"
 #include "gpu/vram.h"
 
 namespace gpu {
@@ -26,6 +27,18 @@ struct Transfer {
     ++row;
   }
 };
+
+/// Pixels of a row that a copy reads before it writes them. [GPU copies]
+inline constexpr int copied_at_once = 128;
+
+/// f(x, y, count) for the pieces of a copy in the order made: rows from the top, in a row from the left. All
+/// pixels of a piece are read before they are written. x, y count from the corners.
+template <class F>
+void for_each_copied_piece(const Primitive& copy, F&& f) {
+  for (int y = 0; y < copy.height; ++y) {
+    for (int x = 0; x < copy.width; x += copied_at_once) f(x, y, std::min(copied_at_once, copy.width - x));
+  }
+}
 
 /// The GPU's copy of the palette in use: loaded when a textured primitive names another one, and not when
 /// VRAM changes under it. [ps1-tests clut-cache]

@@ -94,6 +94,32 @@ TEST_SUITE("canvas") {
     }
   }
 
+  TEST_CASE("overlapping copies repeat on a canvas what they repeat in VRAM, across its edges too") {
+    gpu::Gpu console;
+    Studio studio({.width = 320, .height = 240, .scale = 2});
+    Random random(5);
+    const std::vector<std::uint32_t> size{0xa0000000, 0, 400 | 4 << 16};
+    std::vector<std::uint32_t> words = size;
+    for (int i = 0; i < 400 * 4 / 2; ++i) words.push_back(random.word());
+    for (int i = 0; i < 60; ++i) {
+      const auto row = static_cast<std::uint32_t>(random.between(0, 3)) << 16;
+      const auto column = [&] { return static_cast<std::uint32_t>(random.between(-30, 120)) & 1023; };
+      words.push_back(0xe6000000 | (i % 3 == 0 ? 3U : 0U));
+      words.insert(words.end(), {0x80000000, column() | row, column() | row,
+                                 static_cast<std::uint32_t>(random.between(100, 320)) | 0x10000});
+    }
+    console.gp0(words);
+    studio.draw(words);
+    int different = 0;
+    for (int y = 0; y < 4; ++y) {
+      for (int x = 0; x < 320; ++x) {
+        const auto shown = studio.canvas.layer(0)[static_cast<std::size_t>((2 * y + 1) * 640 + 2 * x)];
+        different += narrow(shown) != console.vram().at(x, y) ? 1 : 0;
+      }
+    }
+    CHECK(different == 0);
+  }
+
   TEST_CASE("what is drawn outside the canvas goes to VRAM as on the console") {
     gpu::Gpu console;
     Studio studio({.width = 320, .height = 240});

@@ -101,6 +101,24 @@ TEST_SUITE("gpu") {
     }
   }
 
+  TEST_CASE("Every dispatch target copies rows onto themselves like the plain rasterizer") {
+    const Restore restore;
+    for (const std::string_view target : gpu::target_names()) {
+      CAPTURE(target);
+      REQUIRE(gpu::use_target(target));
+      const auto both = std::make_unique<Pair>();
+      tests::RandomWords random(31);
+      both->feed(random.noise());
+      for (int i = 0; i < 400; ++i) {
+        const std::uint32_t row = random.below(512) << 16, x = random.below(1024);
+        const std::uint32_t to = i % 2 != 0 ? x + random.below(300) : x - random.below(300);
+        const std::uint32_t size = (1 + random.below(i % 3 == 0 ? 1024 : 400)) | (1 + random.below(4)) << 16;
+        both->feed({0xe6000000 | (i % 5 == 0 ? 2U : 0U), 0x80000000, x | row, (to & 1023) | row, size});
+      }
+      both->check();
+    }
+  }
+
   TEST_CASE("With a z-buffer of any format every target draws and stores like the plain rasterizer") {
     const Restore restore;
     using gpu::DepthFormat, gpu::DepthMapping, gpu::DepthTest;

@@ -368,6 +368,26 @@ TEST_SUITE("gpu") {
     CHECK(nothing.count() == 0);
   }
 
+  TEST_CASE("A copy reads 128 pixels of a row before it writes them, so a wide one repeats what it wrote") {
+    // 300 pixels 1, 2, 3 ... moved to the right by 6: pixels 128..133 are overwritten before they are read.
+    Bench bench;
+    const auto at_first = [](int x) { return static_cast<std::uint16_t>(x < 300 ? x + 1 : 0); };
+    for (int x = 0; x < 300; ++x) bench.gpu->vram().at(x, 0) = at_first(x);
+    bench.send({0x80000000, at(0, 0), at(6, 0), at(300, 1)});
+    CHECK(bench.row(0, 0, 7) == Pixels{1, 2, 3, 4, 5, 6, 1});
+    CHECK(bench.row(128, 0, 4) == Pixels{123, 124, 125, 126});
+    CHECK(bench.row(134, 0, 7) == Pixels{123, 124, 125, 126, 127, 128, 135});
+    CHECK(bench.row(262, 0, 7) == Pixels{251, 252, 253, 254, 255, 256, 263});
+    CHECK(bench.row(305, 0, 2) == Pixels{300, 0});
+    // To the left nothing is overwritten before it is read, nor where the copy is no wider than 128.
+    Bench left;
+    for (int x = 0; x < 300; ++x) left.gpu->vram().at(x, 0) = at_first(x);
+    left.send({0x80000000, at(6, 0), at(0, 0), at(294, 1), 0x80000000, at(0, 0), at(6, 0), at(128, 1)});
+    CHECK(left.row(0, 0, 7) == Pixels{7, 8, 9, 10, 11, 12, 7});
+    CHECK(left.row(130, 0, 5) == Pixels{131, 132, 133, 134, 141});
+    CHECK(left.row(293, 0, 2) == Pixels{300, 295});
+  }
+
   TEST_CASE("A copy reads a row before it writes it, and smears from row to row") {
     Bench bench;
     for (int i = 0; i < 6; ++i) bench.gpu->vram().at(i, 0) = static_cast<std::uint16_t>(i + 1);

@@ -326,15 +326,14 @@ void PlainGpu::copy() {
   flush();
   const int w = static_cast<int>(((words_[3] & 0xffff) - 1) & 1023) + 1;
   const int h = static_cast<int>(((words_[3] >> 16) - 1) & 511) + 1;
-  std::vector<uint16_t> row(static_cast<std::size_t>(w));
+  const int from_x = static_cast<int>(words_[1] & 1023), from_y = static_cast<int>(words_[1] >> 16 & 511);
+  const int to_x = static_cast<int>(words_[2] & 1023), to_y = static_cast<int>(words_[2] >> 16 & 511);
+  std::vector<uint16_t> chunk;
   for (int j = 0; j < h; ++j) {
-    for (int i = 0; i < w; ++i) {
-      row[static_cast<std::size_t>(i)] =
-          at(static_cast<int>(words_[1] & 1023) + i, static_cast<int>(words_[1] >> 16 & 511) + j);
-    }
-    for (int i = 0; i < w; ++i) {
-      transfer_pixel(static_cast<int>(words_[2] & 1023) + i, static_cast<int>(words_[2] >> 16 & 511) + j,
-                     row[static_cast<std::size_t>(i)]);
+    for (int first = 0; first < w; first += 128) {
+      chunk.clear();
+      for (int i = first; i < std::min(first + 128, w); ++i) chunk.push_back(at(from_x + i, from_y + j));
+      for (int i = first; const uint16_t value : chunk) transfer_pixel(to_x + i++, to_y + j, value);
     }
   }
 }

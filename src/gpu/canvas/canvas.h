@@ -116,8 +116,9 @@ class Canvas {
   void draw_block(const Paint& paint, const Planes& planes, Range columns, Range rows, const Clip& clip);
   void draw_queue();
   void fill(const Primitive& p);
-  void copy_within(const Primitive& p);
-  void take_from(const Primitive& p, const Vram& vram);
+  void copy(const Primitive& p, const Vram& vram);
+  void upload(const Primitive& p, const Vram& vram);
+  [[nodiscard]] Pixel from_vram(std::uint16_t pixel) const;
 
   Options options_;
   Grid grid_;

@@ -1,5 +1,7 @@
 // Fills, copies and uploads: what changes VRAM without drawing changes the canvas alike.
 
+#include "gpu/transfer.h"
+
 #include <algorithm>
 #include <array>
 
@@ -9,12 +11,12 @@
 namespace gpu::canvas {
 namespace {
 
-/// f(x, y, i, j) for every VRAM pixel of a rectangle that wraps at both edges of VRAM, row by row.
+/// f(x, y) for every VRAM pixel of a rectangle that wraps at both edges of VRAM, row by row.
 template <class F>
 void for_each_pixel(Vertex corner, int width, int height, F&& f) {
   for (int j = 0; j < height; ++j) {
     for (int i = 0; i < width; ++i) {
-      f((corner.x + i) & (Vram::width - 1), (corner.y + j) & (Vram::height - 1), i, j);
+      f((corner.x + i) & (Vram::width - 1), (corner.y + j) & (Vram::height - 1));
     }
   }
 }
@@ -60,9 +62,9 @@ void Canvas::transfer(const Primitive& p, const Vram& vram) {
     case Kind::fill:
       return fill(p);
     case Kind::copy:
-      return copy_within(p), take_from(p, vram);
+      return copy(p, vram);
     case Kind::upload:
-      return take_from(p, vram);
+      return upload(p, vram);
     default:
       return;
   }
@@ -88,56 +90,59 @@ void Canvas::fill(const Primitive& p) {
   }
 }
 
-/// Pixels whose source is on the canvas too. A row is read whole before it is written, as in VRAM.
-void Canvas::copy_within(const Primitive& p) {
+/// Piece by piece as in VRAM. A pixel that comes from outside the canvas is what VRAM got for it; where mask
+/// bits may have kept VRAM from getting it, what lies at its source now.
+void Canvas::copy(const Primitive& p, const Vram& vram) {
   const Blocks blocks(grid_, options_, samples());
   const Vertex to = p.vertices[0];
   const Vertex from = p.vertices[1];
   const Pixel set = p.state.mask_set() != 0 ? mask_bit : 0;
   const Pixel test = p.state.mask_test() != 0 ? mask_bit : 0;
-  std::vector<Pixel> line(static_cast<std::size_t>(p.width) * blocks.length());
+  std::vector<Pixel> line(static_cast<std::size_t>(copied_at_once) * blocks.length());
   for (Layer& layer : layers_) {
-    const auto each = [&](int j, auto&& use) {
-      for (int i = 0; i < p.width; ++i) {
-        const int sx = (from.x + i) & (Vram::width - 1);
-        const int sy = (from.y + j) & (Vram::height - 1);
-        const int dx = (to.x + i) & (Vram::width - 1);
-        const int dy = (to.y + j) & (Vram::height - 1);
-        if (!blocks.contains(sx, sy) || !blocks.contains(dx, dy)) continue;
-        for (int row = 0; row < options_.scale; ++row) {
-          Pixel* kept = &line[static_cast<std::size_t>(i) * blocks.length() +
-                              static_cast<std::size_t>(row) * blocks.row_length()];
-          use(kept, &layer.colour[blocks.row(sx, sy, row)], &layer.colour[blocks.row(dx, dy, row)]);
+    for_each_copied_piece(p, [&](int first, int j, int count) {
+      const int sy = (from.y + j) & (Vram::height - 1);
+      const int dy = (to.y + j) & (Vram::height - 1);
+      const auto each = [&](auto&& use) {
+        for (int i = 0; i < count; ++i) {
+          const int sx = (from.x + first + i) & (Vram::width - 1);
+          const int dx = (to.x + first + i) & (Vram::width - 1);
+          if (blocks.contains(dx, dy)) use(&line[static_cast<std::size_t>(i) * blocks.length()], sx, dx);
         }
-      }
-    };
-    for (int j = 0; j < p.height; ++j) {
-      each(j,
-           [&](Pixel* kept, const Pixel* source, Pixel*) { std::copy_n(source, blocks.row_length(), kept); });
-      each(j, [&](const Pixel* kept, const Pixel*, Pixel* target) {
-        for (std::size_t k = 0; k < blocks.row_length(); ++k) {
-          if ((target[k] & test) == 0) target[k] = kept[k] | set;
+      };
+      const auto each_row = [&](Pixel* kept, auto&& use) {
+        for (int row = 0; row < options_.scale; ++row, kept += blocks.row_length()) use(kept, row);
+      };
+      each([&](Pixel* kept, int sx, int dx) {
+        if (!blocks.contains(sx, sy)) {
+          std::fill_n(kept, blocks.length(), from_vram(test == 0 ? vram.at(dx, dy) : vram.at(sx, sy)));
+          return;
         }
+        each_row(kept, [&](Pixel* into, int row) {
+          std::copy_n(&layer.colour[blocks.row(sx, sy, row)], blocks.row_length(), into);
+        });
       });
-    }
+      each([&](Pixel* kept, int, int dx) {
+        each_row(kept, [&](const Pixel* source, int row) {
+          Pixel* target = &layer.colour[blocks.row(dx, dy, row)];
+          for (std::size_t k = 0; k < blocks.row_length(); ++k) {
+            if ((target[k] & test) == 0) target[k] = source[k] | set;
+          }
+        });
+      });
+    });
   }
 }
 
-/// Pixels that came from outside the canvas. What an upload brought is read back from VRAM, so one that
-/// VRAM's own mask bits refused does not arrive.
-void Canvas::take_from(const Primitive& p, const Vram& vram) {
+/// What an upload brought is read back from VRAM, so a pixel that VRAM's own mask bits refused does not
+/// arrive.
+void Canvas::upload(const Primitive& p, const Vram& vram) {
   const Blocks blocks(grid_, options_, samples());
-  const bool is_copy = p.kind == Kind::copy;
   const Pixel set = p.state.mask_set() != 0 ? mask_bit : 0;
   const Pixel test = p.state.mask_test() != 0 ? mask_bit : 0;
-  for_each_pixel(p.vertices[0], p.width, p.height, [&](int x, int y, int i, int j) {
+  for_each_pixel(p.vertices[0], p.width, p.height, [&](int x, int y) {
     if (!blocks.contains(x, y)) return;
-    const int source_x = is_copy ? (p.vertices[1].x + i) & (Vram::width - 1) : x;
-    const int source_y = is_copy ? (p.vertices[1].y + j) & (Vram::height - 1) : y;
-    if (is_copy && blocks.contains(source_x, source_y)) return;
-    const std::uint16_t pixel = vram.at(source_x, source_y);
-    const Pixel colour =
-        widen(pixel, options_.colour == Colour::bits24) | ((pixel & 0x8000) != 0 ? mask_bit : 0) | set;
+    const Pixel colour = from_vram(vram.at(x, y)) | set;
     for (Layer& layer : layers_) {
       for (int row = 0; row < options_.scale; ++row) {
         Pixel* at = &layer.colour[blocks.row(x, y, row)];
@@ -146,6 +151,11 @@ void Canvas::take_from(const Primitive& p, const Vram& vram) {
       }
     }
   });
+}
+
+/// A pixel of VRAM, its mask bit included.
+Pixel Canvas::from_vram(std::uint16_t pixel) const {
+  return widen(pixel, options_.colour == Colour::bits24) | ((pixel & 0x8000) != 0 ? mask_bit : 0);
 }
 
 }  // namespace gpu::canvas
