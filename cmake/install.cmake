@@ -1,9 +1,9 @@
 # cmake --install: the program, and the libraries that other projects use through find_package(otter).
 include(CMakePackageConfigHelpers)
 
-install(TARGETS build_flags gte ot gpu inspect EXPORT otter-targets)
+install(TARGETS build_flags base gte ot gpu exact inspect EXPORT otter-targets)
 install(EXPORT otter-targets NAMESPACE otter:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
-foreach(folder IN ITEMS gte ot src/gpu src/inspect)
+foreach(folder IN ITEMS gte ot src/base src/gpu src/exact src/inspect)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/otter
           FILES_MATCHING PATTERN "*.h")
 endforeach()

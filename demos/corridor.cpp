@@ -1,9 +1,9 @@
 // A long corridor of large textured quads with things standing on its floor. The average depth of a long
 // floor quad says little about its depth near an object, and affine texture coordinates bend along it.
 
-#include "demos/paint.h"
+#include "demos/parts.h"
 #include "demos/scenes.h"
-#include "demos/shapes.h"
+#include "demos/textures.h"
 #include "scene/angle.h"
 
 namespace demos {

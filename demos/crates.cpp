@@ -1,8 +1,8 @@
 // Textured crates, spinning: convex objects well apart, the case the ordering table was made for.
 
-#include "demos/paint.h"
+#include "demos/parts.h"
 #include "demos/scenes.h"
-#include "demos/shapes.h"
+#include "demos/textures.h"
 #include "scene/angle.h"
 
 namespace demos {

@@ -1,9 +1,9 @@
 // Two walls that pass through each other: whichever is painted last hides half of
 // the other that should be seen.
 
-#include "demos/paint.h"
+#include "demos/parts.h"
 #include "demos/scenes.h"
-#include "demos/shapes.h"
+#include "demos/textures.h"
 #include "scene/angle.h"
 
 namespace demos {

@@ -1,8 +1,8 @@
 // Three bars, each in front of the next and behind the one before: no order to paint them in is right.
 
-#include "demos/paint.h"
+#include "demos/parts.h"
 #include "demos/scenes.h"
-#include "demos/shapes.h"
+#include "demos/textures.h"
 #include "scene/angle.h"
 
 namespace demos {

@@ -1,8 +1,8 @@
 // Four panes of glass on a carousel, one for each way the console can mix a new pixel with the one behind it.
 
-#include "demos/paint.h"
+#include "demos/parts.h"
 #include "demos/scenes.h"
-#include "demos/shapes.h"
+#include "demos/textures.h"
 #include "scene/angle.h"
 
 namespace demos {

@@ -33,8 +33,8 @@ scene::Scene Machine::scene_as_given() const {
   return scene;
 }
 
-scene::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::Knobs& knobs,
-                                               const CameraOffset& camera) {
+base::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::Knobs& knobs,
+                                              const CameraOffset& camera) {
   if (auto checked = scene::check_knobs(knobs); !checked) return tl::make_unexpected(checked.error());
   offset_ = camera;
   if (builder_->needs_upload(knobs)) {
@@ -43,10 +43,10 @@ scene::Result<scene::FrameStats> Machine::draw(std::int64_t frame, const scene::
   }
   const bool continues = frame == last_frame_ + 1 && knobs == last_knobs_;
   if (!continues) presenter_.forget();
-  const int before = continues ? 0 : display::Presenter::frames_before(knobs);
+  const int before = continues ? 0 : machine::Presenter::frames_before(knobs);
   last_frame_ = frame;
   last_knobs_ = knobs;
-  scene::Result<scene::FrameStats> stats;
+  base::Result<scene::FrameStats> stats;
   for (std::int64_t f = frame - before; f <= frame; ++f) {
     const auto seconds = static_cast<double>(std::max<std::int64_t>(f, 0)) / 60.0;
     stats = scene::render_frame(*builder_, seconds, knobs, ram_, gpu_);

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
-#include "app/camera.h"
-#include "display/picture.h"
-#include "display/present.h"
+#include "app/window/camera.h"
+#include "base/picture.h"
 #include "gpu/gpu.h"
+#include "machine/present.h"
 #include "ot/main_ram.h"
 #include "scene/frame.h"
 #include "scene/knobs.h"
@@ -29,14 +29,14 @@ class Machine {
   /// Draws the state at frame / 60 s, seen from the scene's camera moved by `camera`.
   /// A frame that temporal accumulation cannot continue from the last one draws the frames before it first.
   /// Error: knobs that cannot be met, a frame that does not fit into RAM, a polygon without depth.
-  scene::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
-                                        const CameraOffset& camera = {});
+  base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
+                                       const CameraOffset& camera = {});
 
   /// From the next draw() on every pixel written is noted in `trace`, until nullptr ends it.
   void watch(gpu::Trace* trace) { gpu_.set_trace(trace); }
 
   /// What the display shows after draw().
-  [[nodiscard]] const display::Picture& picture() const { return picture_; }
+  [[nodiscard]] const base::Picture& picture() const { return picture_; }
 
   /// Moves `camera` by `step` in the axes of the picture last drawn (see app::fly).
   void fly(CameraOffset& camera, glm::vec3 step) const;
@@ -60,8 +60,8 @@ class Machine {
   float pivot_distance_ = 1;
   ot::MainRam ram_{ot::RamSize::mib8};
   gpu::Gpu gpu_;
-  display::Presenter presenter_;
-  display::Picture picture_;
+  machine::Presenter presenter_;
+  base::Picture picture_;
   std::int64_t last_frame_ = -1;  // drawn with last_knobs_
   scene::Knobs last_knobs_;
   std::unique_ptr<scene::FrameBuilder> builder_;

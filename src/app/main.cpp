@@ -11,15 +11,15 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/options.h"
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
 
 namespace {
 
 using app::Action;
 
-constexpr int bad_usage = static_cast<int>(scene::Exit::bad_input);
-constexpr int failed = static_cast<int>(scene::Exit::failed);
+constexpr int bad_usage = static_cast<int>(base::Exit::bad_input);
+constexpr int failed = static_cast<int>(base::Exit::failed);
 
 int complain(const std::string& where, const std::string& text, int status) {
   std::fprintf(stderr, "%s: %s\n", where.c_str(), text.c_str());

@@ -110,11 +110,11 @@ double edge_error(const scene::Knobs& given) {
   for (const auto& t : triangles()) {
     gpu::Gpu gpu;
     gpu.set_canvas(options);
-    display::Presenter presenter;
-    display::Picture shown;
+    machine::Presenter presenter;
+    base::Picture shown;
     const std::array<std::uint32_t, 6> area_and_clear{
         0xe3000000, 0xe4000000 | (side - 1) | (side - 1) << 10, 0xe5000000, 0x02000000, 0, side | side << 16};
-    for (int i = 0; i <= display::Presenter::frames_before(knobs); ++i) {
+    for (int i = 0; i <= machine::Presenter::frames_before(knobs); ++i) {
       gpu.canvas()->begin_frame(0, 0);
       gpu.gp0(area_and_clear);
       gpu.gp0(words(t));

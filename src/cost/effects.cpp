@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using Timed = std::function<scene::Result<double>()>;  // draws once; milliseconds
+using Timed = std::function<base::Result<double>()>;  // draws once; milliseconds
 
 /// A frame as it is, and without one effect after the other. Each is timed beside the whole frame, before and
 /// after it in turn, so that what a busy machine adds falls on both alike.
@@ -61,7 +61,7 @@ class Variants {
   std::vector<double> wholes_;
 };
 
-scene::Result<double> total_ms(Subject& subject, const scene::Knobs& knobs) {
+base::Result<double> total_ms(Subject& subject, const scene::Knobs& knobs) {
   const auto drawn = subject.draw(knobs);
   if (!drawn) return tl::make_unexpected(drawn.error());
   return drawn->stages.total();
@@ -225,8 +225,8 @@ bool reads_frame(const gpu::Primitive& p, const scene::Knobs& knobs) {
 
 }  // namespace
 
-scene::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
-                                         const scene::Knobs& knobs, int rounds) {
+base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
+                                        const scene::Knobs& knobs, int rounds) {
   Subject subject(scene, frame);
   EffectReport report{scene.name, frame, knobs.width, knobs.height, 0, {}, {}, {}, {}};
   const auto drawn = subject.draw(knobs);

@@ -36,8 +36,8 @@ struct EffectReport {
 
 /// Error: the frame cannot be drawn. `rounds` timings of each variant, each beside one of the whole frame; 0:
 /// as many as it takes for prices to settle, within about two seconds.
-scene::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
-                                         const scene::Knobs& knobs, int rounds = 0);
+base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
+                                        const scene::Knobs& knobs, int rounds = 0);
 
 std::string to_text(const EffectReport& report);
 /// {"schema":"otter.effects/1",...}

@@ -88,7 +88,7 @@ double Errors::of(Measure measure) const {
 
 ErrorMeter::ErrorMeter(Subject& subject, const scene::Knobs& given) : subject_(subject), given_(given) {}
 
-scene::Result<void> ErrorMeter::prepare() {
+base::Result<void> ErrorMeter::prepare() {
   if (reference_.width != 0) return {};
   const auto drawn = subject_.draw(reference_knobs(given_));
   if (!drawn) return tl::make_unexpected(drawn.error());
@@ -96,7 +96,7 @@ scene::Result<void> ErrorMeter::prepare() {
   return {};
 }
 
-scene::Result<Errors> ErrorMeter::measure(const scene::Knobs& knobs) {
+base::Result<Errors> ErrorMeter::measure(const scene::Knobs& knobs) {
   Errors errors;
   const auto shown = shrunk(subject_.picture(), knobs.resolution);
   if (auto ready = prepare(); !ready) return tl::make_unexpected(ready.error());
@@ -115,7 +115,7 @@ scene::Result<Errors> ErrorMeter::measure(const scene::Knobs& knobs) {
 
 /// What decides which surface wins is the same whatever is drawn beside it: one sample a pixel, whole
 /// positions.
-scene::Result<void> ErrorMeter::judge_surfaces(const scene::Knobs& knobs, Errors& errors) {
+base::Result<void> ErrorMeter::judge_surfaces(const scene::Knobs& knobs, Errors& errors) {
   const auto key =
       key_of(knobs, {"visibility", "buckets", "key", "bias", "bucket-order", "depth", "depth-mapping",
                      "depth-test", "depth-reversed", "near", "far", "transform", "subdivide"});
@@ -175,7 +175,7 @@ Distance ErrorMeter::geometric(const scene::Knobs& knobs) {
 
 /// Against the same frame with exact positions and perspective, pixel by pixel, inside surfaces that both
 /// show.
-scene::Result<Distance> ErrorMeter::texel(const scene::Knobs& knobs) {
+base::Result<Distance> ErrorMeter::texel(const scene::Knobs& knobs) {
   const auto key =
       key_of(knobs, {"visibility", "buckets", "key", "transform", "position", "texture", "subdivide"});
   if (const auto found = texels_.find(key); found != texels_.end()) return found->second;

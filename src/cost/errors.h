@@ -36,20 +36,20 @@ class ErrorMeter {
  public:
   explicit ErrorMeter(Subject& subject, const scene::Knobs& given);
   /// Needs subject.draw(knobs) done just before: the picture is read from it.
-  scene::Result<Errors> measure(const scene::Knobs& knobs);
+  base::Result<Errors> measure(const scene::Knobs& knobs);
   /// The picture of the reference knobs, at the console's resolution. Empty until measure() or prepare().
-  [[nodiscard]] const display::Picture& reference() const { return reference_; }
-  scene::Result<void> prepare();
+  [[nodiscard]] const base::Picture& reference() const { return reference_; }
+  base::Result<void> prepare();
 
  private:
-  scene::Result<void> judge_surfaces(const scene::Knobs& knobs, Errors& errors);
+  base::Result<void> judge_surfaces(const scene::Knobs& knobs, Errors& errors);
   Distance geometric(const scene::Knobs& knobs);
-  scene::Result<Distance> texel(const scene::Knobs& knobs);
+  base::Result<Distance> texel(const scene::Knobs& knobs);
   double edge(const scene::Knobs& knobs);
 
   Subject& subject_;
   scene::Knobs given_;
-  display::Picture reference_;
+  base::Picture reference_;
   std::map<std::string, Errors> verdicts_;      // by the knobs that decide visibility
   std::map<std::string, Distance> geometrics_;  // by those that place vertices
   std::map<std::string, Distance> texels_;

@@ -7,8 +7,8 @@
 namespace cost {
 namespace {
 
-using display::Picture;
-using display::Rgba;
+using base::Picture;
+using base::Rgba;
 
 std::array<double, 3> channels(Rgba p) {
   return {static_cast<double>(p.r), static_cast<double>(p.g), static_cast<double>(p.b)};

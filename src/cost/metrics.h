@@ -4,29 +4,29 @@
 #include <span>
 #include <vector>
 
-#include "display/picture.h"
+#include "base/picture.h"
 
 namespace cost {
 
 /// Root mean square difference over r, g, b, of 255. Pictures of one size.
-double rms(const display::Picture& a, const display::Picture& b);
+double rms(const base::Picture& a, const base::Picture& b);
 /// The same of the means of 4 x 4 blocks: what an eye at a distance sees of a dithered picture.
-double block_rms(const display::Picture& a, const display::Picture& b);
+double block_rms(const base::Picture& a, const base::Picture& b);
 /// Peak signal to noise ratio in dB; 99 for equal pictures, so that it can be drawn and written.
 double psnr(double rms_of_255);
 /// Structural similarity of brightness, mean over 8 x 8 windows every 4 pixels: 1 = alike. [Wang et al. 2004]
-double ssim(const display::Picture& a, const display::Picture& b);
+double ssim(const base::Picture& a, const base::Picture& b);
 
 /// `picture`, `factor` (1, 2, 4, 8) times as wide and high as wanted: each pixel the mean of the square of
 /// side 1 round its sample point, which is the first of the factor x factor pixels.
-display::Picture shrunk(const display::Picture& picture, int factor);
+base::Picture shrunk(const base::Picture& picture, int factor);
 /// Where and how much two pictures differ: the colour of the largest difference of a channel, 0..255.
-display::Picture heat_map(const display::Picture& a, const display::Picture& b);
+base::Picture heat_map(const base::Picture& a, const base::Picture& b);
 /// Black for no difference, then purple, red, yellow, white for 255; the scale is a square root, so that
 /// small ones show.
-display::Rgba heat(int difference);
+base::Rgba heat(int difference);
 /// The part of `a` at (x, y).
-display::Picture cropped(const display::Picture& a, int x, int y, int width, int height);
+base::Picture cropped(const base::Picture& a, int x, int y, int width, int height);
 
 /// The middle value (mean of the two middle ones); 0 of nothing.
 double median(std::vector<double> values);

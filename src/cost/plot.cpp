@@ -92,7 +92,7 @@ std::string plotted(const std::string& script) {
   return svg;
 }
 
-std::string png_base64(const display::Picture& picture) {
+std::string png_base64(const base::Picture& picture) {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(picture.width);

@@ -39,6 +39,6 @@ Html to_html(const Report& report);
 /// A gnuplot script's SVG, without its XML prologue; empty if gnuplot cannot be run.
 std::string plotted(const std::string& script);
 /// `picture` as a PNG in base64: what follows "data:image/png;base64,".
-std::string png_base64(const display::Picture& picture);
+std::string png_base64(const base::Picture& picture);
 
 }  // namespace cost

@@ -14,7 +14,7 @@
 namespace cost {
 namespace {
 
-using display::Picture;
+using base::Picture;
 
 std::string image(const Picture& p, std::string_view what) {
   return joined({"<img alt=\"", escaped(what), "\" width=", std::to_string(p.width), " height=",

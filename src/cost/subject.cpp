@@ -28,12 +28,12 @@ scene::FrameBuilder& Subject::builder(const scene::Knobs& knobs) {
   return *made;
 }
 
-scene::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
+base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   auto& build = builder(knobs);
   gpu_->set_trace(nullptr);
   presenter_.forget();
-  const int before = std::max(1, display::Presenter::frames_before(knobs));
-  scene::Result<scene::FrameStats> stats;
+  const int before = std::max(1, machine::Presenter::frames_before(knobs));
+  base::Result<scene::FrameStats> stats;
   double filter = 0;
   for (int i = 0; i <= before; ++i) {
     if (gpu_->canvas() != nullptr) gpu_->canvas()->reset_counters();  // those of the last frame are asked for
@@ -70,7 +70,7 @@ scene::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   return drawn;
 }
 
-scene::Result<void> Subject::trace(const scene::Knobs& knobs, gpu::Trace& trace) {
+base::Result<void> Subject::trace(const scene::Knobs& knobs, gpu::Trace& trace) {
   auto& build = builder(knobs);
   gpu_->set_trace(&trace);
   const auto drawn = scene::render_frame(build, seconds(), knobs, ram_, *gpu_);
@@ -79,7 +79,7 @@ scene::Result<void> Subject::trace(const scene::Knobs& knobs, gpu::Trace& trace)
   return {};
 }
 
-scene::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
+base::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
   const scene::Knobs console;
   knobs.position = console.position;
   knobs.texture = console.texture;
@@ -92,7 +92,7 @@ scene::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
   return trace(knobs, to);
 }
 
-scene::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
+base::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
   knobs.antialias = {};
   knobs.resolution = 1;
   knobs.filter = scene::Filter::nearest;
@@ -111,7 +111,7 @@ scene::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
   return result;
 }
 
-scene::Result<std::vector<std::uint32_t>> Subject::words(const scene::Knobs& knobs) {
+base::Result<std::vector<std::uint32_t>> Subject::words(const scene::Knobs& knobs) {
   auto& build = builder(knobs);
   auto frame = build.build(seconds(), knobs, ram_);
   if (!frame) return tl::make_unexpected(frame.error());
@@ -121,14 +121,14 @@ scene::Result<std::vector<std::uint32_t>> Subject::words(const scene::Knobs& kno
         ot::walk(ram_, frame->head, [&list](std::uint32_t, std::span<const std::uint32_t> payload) {
           list.insert(list.end(), payload.begin(), payload.end());
         });
-    if (!walked) return scene::fail(walked.message(), scene::Exit::failed);
+    if (!walked) return base::fail(walked.message(), base::Exit::failed);
     buffer_y_ = frame->buffer_y;
     if (frame->nearer_lists == 0) return list;
     if (auto next = build.next(*frame, ram_); !next) return tl::make_unexpected(next.error());
   }
 }
 
-scene::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words) {
+base::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words) {
   gpu_->set_trace(nullptr);
   if (auto used = scene::use_targets(builder(knobs), knobs, *gpu_); !used)
     return tl::make_unexpected(used.error());

@@ -6,11 +6,11 @@
 #include <span>
 #include <vector>
 
-#include "display/picture.h"
-#include "display/present.h"
+#include "base/picture.h"
 #include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
 #include "gpu/trace.h"
+#include "machine/present.h"
 #include "ot/main_ram.h"
 #include "scene/frame.h"
 #include "scene/knobs.h"
@@ -53,19 +53,19 @@ class Subject {
   [[nodiscard]] std::uint32_t frame() const { return frame_; }
 
   /// Draws the frame as often as its knobs need to settle (`warm`: once at least), then once more, timed.
-  scene::Result<Drawn> draw(const scene::Knobs& knobs);
+  base::Result<Drawn> draw(const scene::Knobs& knobs);
   /// What the last draw() shows, at the resolution of its knobs.
-  [[nodiscard]] const display::Picture& picture() const { return picture_; }
+  [[nodiscard]] const base::Picture& picture() const { return picture_; }
   [[nodiscard]] const gpu::Gpu& gpu() const { return *gpu_; }
 
   /// The frame drawn on the console's target with a history of every write, for inspection.
-  scene::Result<void> trace_console(scene::Knobs knobs, gpu::Trace& to);
+  base::Result<void> trace_console(scene::Knobs knobs, gpu::Trace& to);
   /// The frame drawn on a canvas of one sample that keeps who wrote what.
-  scene::Result<Traced> trace_canvas(scene::Knobs knobs);
+  base::Result<Traced> trace_canvas(scene::Knobs knobs);
   /// The words of the frame, list after list, as a walk sends them.
-  scene::Result<std::vector<std::uint32_t>> words(const scene::Knobs& knobs);
+  base::Result<std::vector<std::uint32_t>> words(const scene::Knobs& knobs);
   /// Draws such words on the targets of `knobs`: milliseconds.
-  scene::Result<double> draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words);
+  base::Result<double> draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words);
   [[nodiscard]] bool uses_canvas(const scene::Knobs& knobs);
   /// The polygons as they would be drawn, before any is.
   std::vector<scene::ScreenPolygon> polygons(const scene::Knobs& knobs);
@@ -73,7 +73,7 @@ class Subject {
  private:
   scene::FrameBuilder& builder(const scene::Knobs& knobs);
   [[nodiscard]] double seconds() const { return frame_ / 60.0; }
-  scene::Result<void> trace(const scene::Knobs& knobs, gpu::Trace& to);
+  base::Result<void> trace(const scene::Knobs& knobs, gpu::Trace& to);
 
   scene::Scene scene_;
   std::uint32_t frame_;
@@ -83,8 +83,8 @@ class Subject {
       builders_;                             // by width, height, subdivide
   scene::FrameBuilder* uploaded_ = nullptr;  // whose textures VRAM holds
   int buffer_y_ = 0;                         // of the last words()
-  display::Presenter presenter_;
-  display::Picture picture_;
+  machine::Presenter presenter_;
+  base::Picture picture_;
 };
 
 }  // namespace cost

@@ -138,7 +138,7 @@ void mark_front(std::vector<Row>& rows) {
   }
 }
 
-scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
+base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
   SceneResult result;
   result.scene = subject.name();
   result.frame = subject.frame();

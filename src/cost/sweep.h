@@ -42,10 +42,10 @@ struct Row {
   Touched touched;               ///< bytes read and written
   std::uint64_t held_bytes = 0;  ///< memory the frame needs
   Errors errors;
-  display::Picture picture;     ///< at the console's resolution
-  display::Picture difference;  ///< its distance from the reference, as a heat map
-  bool is_console = false;      ///< the console's setting of its axis
-  bool on_front = false;        ///< no other of its sweep is both faster and nearer to the truth
+  base::Picture picture;     ///< at the console's resolution
+  base::Picture difference;  ///< its distance from the reference, as a heat map
+  bool is_console = false;   ///< the console's setting of its axis
+  bool on_front = false;     ///< no other of its sweep is both faster and nearer to the truth
 
   /// The error it competes by: its axis' own; of a combination, the distance from the reference picture.
   [[nodiscard]] double error() const { return errors.of(axis != nullptr ? axis->measure : Measure::colour); }
@@ -57,7 +57,7 @@ struct SceneResult {
   std::uint32_t frame = 0;
   int width = 0, height = 0, rounds = 0;  ///< rounds completed by every row
   std::vector<Row> rows;
-  display::Picture reference;
+  base::Picture reference;
   std::vector<std::string> skipped;  ///< settings that could not be drawn, and why
   bool complete = true;              ///< false: stopped early
 
@@ -65,7 +65,7 @@ struct SceneResult {
 };
 
 /// Error: the reference itself cannot be drawn.
-scene::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options);
+base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options);
 
 /// Marks the rows that no other row of the same axis and direction beats in both time and error.
 void mark_front(std::vector<Row>& rows);

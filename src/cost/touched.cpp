@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "gpu/canvas/resolve.h"
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 
 namespace cost {
 namespace {
@@ -75,7 +75,7 @@ void count_canvas(const gpu::canvas::Canvas& canvas, const scene::Knobs& knobs, 
 
 }  // namespace
 
-scene::Result<Touched> touched(Subject& subject, const scene::Knobs& knobs, const Drawn& drawn) {
+base::Result<Touched> touched(Subject& subject, const scene::Knobs& knobs, const Drawn& drawn) {
   Touched t;
   t.list = 2 * std::uint64_t{drawn.stats.ram_bytes};
   const auto shown = static_cast<std::uint64_t>(subject.picture().pixels.size());

@@ -21,6 +21,6 @@ struct Touched {
 };
 
 /// Needs `drawn` = subject.draw(knobs) done just before. Draws the frame once more where it is drawn in VRAM.
-scene::Result<Touched> touched(Subject& subject, const scene::Knobs& knobs, const Drawn& drawn);
+base::Result<Touched> touched(Subject& subject, const scene::Knobs& knobs, const Drawn& drawn);
 
 }  // namespace cost

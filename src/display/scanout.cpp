@@ -7,7 +7,7 @@ namespace display {
 namespace {
 
 constexpr auto expanded = [] {
-  std::array<Rgba, 0x8000> table{};
+  std::array<base::Rgba, 0x8000> table{};
   for (std::size_t i = 0; i < table.size(); ++i) table[i] = expand(static_cast<std::uint16_t>(i));
   return table;
 }();
@@ -29,10 +29,10 @@ Area area_of(const gpu::Display& display) {
           .is_off = display.is_off};
 }
 
-Picture scan_out(std::span<const std::uint16_t> vram, const Area& area) {
+base::Picture scan_out(std::span<const std::uint16_t> vram, const Area& area) {
   assert(vram.size() == std::size_t{vram_width} * vram_height);
   assert(area.width >= 0 && area.height >= 0);
-  Picture picture(area.width, area.height);
+  base::Picture picture(area.width, area.height);
   if (area.is_off) return picture;
   auto out = picture.pixels.begin();
   for (int y = 0; y < area.height; ++y) {
@@ -50,7 +50,7 @@ Picture scan_out(std::span<const std::uint16_t> vram, const Area& area) {
   return picture;
 }
 
-Picture scan_out_all(std::span<const std::uint16_t> vram) {
+base::Picture scan_out_all(std::span<const std::uint16_t> vram) {
   return scan_out(vram, {.x = 0, .y = 0, .width = vram_width, .height = vram_height});
 }
 

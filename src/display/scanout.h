@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "display/picture.h"
+#include "base/picture.h"
 #include "gpu/display.h"
 
 namespace display {
@@ -29,7 +29,7 @@ struct Area {
 
 /// One VRAM pixel. 5 bits become 8 as v << 3 | v >> 2, so that 0 stays 0 and 31
 /// becomes 255; bit 15 is not shown.
-[[nodiscard]] constexpr Rgba expand(std::uint16_t pixel) {
+[[nodiscard]] constexpr base::Rgba expand(std::uint16_t pixel) {
   const auto channel = [pixel](int shift) {
     const unsigned v = (static_cast<unsigned>(pixel) >> shift) & 31U;
     return static_cast<std::uint8_t>(v << 3U | v >> 2U);
@@ -39,9 +39,9 @@ struct Area {
 
 /// The picture that `area` of `vram` shows. `vram` holds 1024 x 512 pixels, rows from the top.
 /// Source  psx-spx, "GPU Display Control Commands (GP1)"; 24 bit: bytes R, G, B from byte 2x of the row on.
-[[nodiscard]] Picture scan_out(std::span<const std::uint16_t> vram, const Area& area);
+[[nodiscard]] base::Picture scan_out(std::span<const std::uint16_t> vram, const Area& area);
 
 /// All of VRAM as 15-bit pixels: 1024 x 512.
-[[nodiscard]] Picture scan_out_all(std::span<const std::uint16_t> vram);
+[[nodiscard]] base::Picture scan_out_all(std::span<const std::uint16_t> vram);
 
 }  // namespace display

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 
 namespace gpu {
 

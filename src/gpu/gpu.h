@@ -14,8 +14,8 @@
 #include <span>
 #include <vector>
 
+#include "gpu/columns.h"
 #include "gpu/counters.h"
-#include "gpu/coverage.h"
 #include "gpu/depth.h"
 #include "gpu/display.h"
 #include "gpu/primitive.h"

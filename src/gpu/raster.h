@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "gpu/columns.h"
 #include "gpu/counters.h"
-#include "gpu/coverage.h"
 #include "gpu/depth.h"
 #include "gpu/primitive.h"
 #include "gpu/trace.h"

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 #include "gpu/depth_setup.h"
 #include "gpu/edge.h"
 #include "gpu/kernels.h"

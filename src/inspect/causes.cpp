@@ -7,7 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
-#include "inspect/order_graph.h"
+#include "exact/order_graph.h"
 
 namespace inspect {
 namespace {
@@ -77,16 +77,16 @@ class EdgeList {
     recent = key;
     if (seen_.insert(key).second) edges_.emplace_back(from, to);
   }
-  [[nodiscard]] std::vector<Edge> take() { return std::move(edges_); }
+  [[nodiscard]] std::vector<exact::Edge> take() { return std::move(edges_); }
 
  private:
-  std::vector<Edge> edges_;
+  std::vector<exact::Edge> edges_;
   std::unordered_set<std::uint64_t> seen_;
   std::array<std::uint64_t, 1024> recent_{};  // 0 would be an edge from draw 0 to itself, which is none
 };
 
 // Edges from each depth of a pixel to the next nearer one; by transitivity they stand for all pairs.
-std::vector<Edge> must_be_drawn_before(const Fragments& fragments, Surfaces& surfaces) {
+std::vector<exact::Edge> must_be_drawn_before(const Fragments& fragments, Surfaces& surfaces) {
   EdgeList edges;
   std::vector<Fragment> stack;
   for (std::uint32_t pixel = 0; pixel < gpu::Vram::size; ++pixel) {
@@ -111,7 +111,7 @@ std::vector<Edge> must_be_drawn_before(const Fragments& fragments, Surfaces& sur
 std::vector<std::uint32_t> component_of_draws(std::size_t draws, const Fragments& fragments,
                                               Surfaces& surfaces) {
   const auto edges = must_be_drawn_before(fragments, surfaces);
-  const auto components = components_in_order(static_cast<std::uint32_t>(draws), edges);
+  const auto components = exact::components_in_order(static_cast<std::uint32_t>(draws), edges);
   std::vector<std::uint32_t> component(draws);
   for (std::uint32_t c = 0; c < components.size(); ++c) {
     for (const std::uint32_t draw : components[c]) component[draw] = c;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "inspect/doctest.h"
+#include "inspect/check.h"
 
 namespace inspect {
 namespace {

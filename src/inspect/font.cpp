@@ -3,7 +3,7 @@
 #include <array>
 #include <cctype>
 
-#include "inspect/image.h"
+#include "inspect/maps.h"
 
 namespace inspect {
 namespace {
@@ -48,7 +48,7 @@ const Glyph* find(char c) {
 
 }  // namespace
 
-int draw_text(Image& image, int x, int y, std::string_view text, Rgb colour, int scale) {
+int draw_text(base::Picture& image, int x, int y, std::string_view text, base::Rgba colour, int scale) {
   for (const char c : text) {
     const Glyph* glyph = find(c);
     for (int row = 0; glyph != nullptr && row < 5 * scale; ++row) {

@@ -12,13 +12,14 @@ using gpu::Vram;
 
 bool has_truth(const Primitive& p) { return p.kind == gpu::Kind::polygon && p.has_depth; }
 
-Corner corner(const Vertex& v, bool with_fractions) {
+exact::Corner corner(const Vertex& v, bool with_fractions) {
   return {v.x * 256 + (with_fractions ? v.fx : 0), v.y * 256 + (with_fractions ? v.fy : 0), v.z};
 }
 
-InversePlane plane(const Primitive& p, std::size_t half, bool with_fractions) {
-  return InversePlane({corner(p.vertices[half], with_fractions), corner(p.vertices[half + 1], with_fractions),
-                       corner(p.vertices[half + 2], with_fractions)});
+exact::InversePlane plane(const Primitive& p, std::size_t half, bool with_fractions) {
+  return exact::InversePlane({corner(p.vertices[half], with_fractions),
+                              corner(p.vertices[half + 1], with_fractions),
+                              corner(p.vertices[half + 2], with_fractions)});
 }
 
 }  // namespace
@@ -52,9 +53,9 @@ std::strong_ordering Surfaces::compare(const Fragment& a, const Fragment& b, std
   const Surface &surface_a = of(a), &surface_b = of(b);
   const Sample at_a = sample(surface_a, pixel), at_b = sample(surface_b, pixel);
   if (at_a.x == at_b.x && at_a.y == at_b.y) {
-    return compare_nearness(surface_a.plane, surface_b.plane, at_a.x, at_a.y, decisions);
+    return exact::compare_nearness(surface_a.plane, surface_b.plane, at_a.x, at_a.y, decisions);
   }
-  return compare_nearness(surface_a.plane, at_a.x, at_a.y, surface_b.plane, at_b.x, at_b.y, decisions);
+  return exact::compare_nearness(surface_a.plane, at_a.x, at_a.y, surface_b.plane, at_b.x, at_b.y, decisions);
 }
 
 double Surfaces::depth(const Fragment& fragment, std::uint32_t pixel) const {

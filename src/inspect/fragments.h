@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "exact/depth_order.h"
 #include "gpu/trace.h"
-#include "inspect/depth_order.h"
 
 namespace inspect {
 
@@ -34,11 +34,11 @@ class Surfaces {
   /// The fragment's depth in view-space units, for people; not exact.
   [[nodiscard]] double depth(const Fragment& fragment, std::uint32_t pixel) const;
 
-  DecisionCounts decisions;
+  exact::DecisionCounts decisions;
 
  private:
   struct Surface {
-    InversePlane plane;
+    exact::InversePlane plane;
     int left = 0, top = 0;  // of the bounding box: which of the samples that wrap to a pixel is meant
   };
   struct Sample {

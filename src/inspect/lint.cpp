@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 #include "ot/gp0.h"
 #include "ot/walker.h"
 

@@ -74,7 +74,7 @@ struct Report {
   std::vector<WrongPair> pairs;  ///< most pixels first
   BucketCensus buckets;
   std::vector<LintItem> lint;
-  DecisionCounts decisions;
+  exact::DecisionCounts decisions;
 
   [[nodiscard]] std::uint64_t wrong_pixels() const { return wrong.size(); }
   [[nodiscard]] std::uint64_t count(Cause cause) const { return causes[static_cast<std::size_t>(cause)]; }
@@ -87,7 +87,7 @@ struct Report {
 struct Sums {
   std::uint64_t frames = 0, pixels_drawn = 0, wrong_pixels = 0;
   std::array<std::uint64_t, cause_count> causes{}, raw_causes{};
-  DecisionCounts decisions;
+  exact::DecisionCounts decisions;
   std::uint32_t worst_frame = 0;   ///< the one with the most wrong pixels,
   std::uint64_t worst_pixels = 0;  ///< and how many
 

@@ -37,7 +37,7 @@ void causes(std::string& out, const Counts& counts) {
   }
 }
 
-void comparisons(std::string& out, const DecisionCounts& decisions) {
+void comparisons(std::string& out, const exact::DecisionCounts& decisions) {
   print(out, "  comparisons %llu, of which exact %llu (%.3f %%)\n",
         count(decisions.filtered + decisions.exact), count(decisions.exact),
         percent(decisions.exact, decisions.filtered + decisions.exact));

@@ -86,17 +86,17 @@ std::optional<canvas::Options> canvas_options(const Knobs& knobs, const World& w
   return o;
 }
 
-Result<void> use_targets(const FrameBuilder& builder, const Knobs& knobs, gpu::Gpu& gpu) {
+base::Result<void> use_targets(const FrameBuilder& builder, const Knobs& knobs, gpu::Gpu& gpu) {
   auto wanted = canvas_options(knobs, builder.world(), builder.units_per_world());
   if (wanted && gpu.canvas() != nullptr) wanted->trace = gpu.canvas()->options().trace;
   if (wanted && canvas::Canvas::frame_bytes(*wanted) > canvas_limit_bytes) {
-    return fail("--resolution and --antialias ask for a frame of " +
-                std::to_string(canvas::Canvas::frame_bytes(*wanted)) + " bytes; expected at most " +
-                std::to_string(canvas_limit_bytes));
+    return base::fail("--resolution and --antialias ask for a frame of " +
+                      std::to_string(canvas::Canvas::frame_bytes(*wanted)) + " bytes; expected at most " +
+                      std::to_string(canvas_limit_bytes));
   }
   if (wanted && knobs.visibility == Visibility::bsp &&
       (wanted->layers.size() > 1 || !wanted->samples.empty() || wanted->temporal || wanted->scale > 4)) {
-    return fail(
+    return base::fail(
         "--visibility bsp splits polygons for one sample at the centre of each pixel: expected --antialias "
         "none "
         "or fxaa, and --resolution 1, 2 or 4");

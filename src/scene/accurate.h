@@ -20,6 +20,6 @@ namespace scene {
 inline constexpr std::uint64_t canvas_limit_bytes = std::uint64_t{2} << 30;
 
 /// Sets depth stage and canvas of `gpu` as the knobs ask. Error: the canvas would be larger than the limit.
-[[nodiscard]] Result<void> use_targets(const FrameBuilder& builder, const Knobs& knobs, gpu::Gpu& gpu);
+[[nodiscard]] base::Result<void> use_targets(const FrameBuilder& builder, const Knobs& knobs, gpu::Gpu& gpu);
 
 }  // namespace scene

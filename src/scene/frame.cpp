@@ -9,9 +9,9 @@
 #include "gpu/gpu.h"
 #include "ot/gp0.h"
 #include "scene/angle.h"
-#include "scene/bsp.h"
 #include "scene/lists.h"
 #include "scene/model.h"
+#include "scene/split_order.h"
 #include "scene/submit.h"
 #include "scene/tessellate.h"
 
@@ -310,11 +310,11 @@ void FrameBuilder::upload(gpu::Gpu& gpu) {
   for (const auto word : display_gp1()) gpu.gp1(word);
 }
 
-Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRam& ram, Annotate annotate,
-                                  Pieces pieces) {
+base::Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRam& ram,
+                                        Annotate annotate, Pieces pieces) {
   State& s = *state_;
   if (needs_upload(knobs))
-    return fail("the size or subdivide knob changed: prepare and upload first", Exit::failed);
+    return base::fail("the size or subdivide knob changed: prepare and upload first", base::Exit::failed);
   s.frame_knobs = knobs;
   s.frame_annotate = annotate;
   s.ranges.clear();
@@ -376,9 +376,9 @@ Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::MainRa
   return frame;
 }
 
-Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
+base::Result<void> FrameBuilder::next(Frame& frame, ot::MainRam& ram) {
   State& s = *state_;
-  if (s.next_range >= s.ranges.size()) return fail("no list is left of this frame", Exit::failed);
+  if (s.next_range >= s.ranges.size()) return base::fail("no list is left of this frame", base::Exit::failed);
   const auto rule = s.rule(s.frame_knobs);
   const auto style = s.style(s.frame_knobs, s.frame_annotate);
   const Wanted wanted = s.wanted(s.frame_knobs, style);

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "gpu/coverage.h"
+#include "base/result.h"
+#include "gpu/columns.h"
 #include "ot/packet.h"
-#include "scene/error.h"
 #include "scene/knobs.h"
 #include "scene/world.h"
 
@@ -148,11 +148,11 @@ class FrameBuilder {
 
   /// The state of the world at `seconds`, as a list in `ram` (whose whole contents may be overwritten).
   /// Error: one bucket alone does not fit (bytes needed and available are named).
-  [[nodiscard]] Result<Frame> build(double seconds, const Knobs& knobs, ot::MainRam& ram,
-                                    Annotate annotate = Annotate::when_needed,
-                                    Pieces pieces = Pieces::limited);
+  [[nodiscard]] base::Result<Frame> build(double seconds, const Knobs& knobs, ot::MainRam& ram,
+                                          Annotate annotate = Annotate::when_needed,
+                                          Pieces pieces = Pieces::limited);
   /// Puts the next nearer list into `ram`; needs frame.nearer_lists > 0 and the knobs of build().
-  [[nodiscard]] Result<void> next(Frame& frame, ot::MainRam& ram);
+  [[nodiscard]] base::Result<void> next(Frame& frame, ot::MainRam& ram);
 
   /// Visibility sorted and bsp: marks of the list that is in RAM now, in list order.
   /// Valid until the next build().

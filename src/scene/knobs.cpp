@@ -252,20 +252,20 @@ constexpr std::array table{
 
 std::span<const KnobInfo> knob_table() { return table; }
 
-Result<void> set_knob(Knobs& knobs, std::string_view name, std::string_view value) {
+base::Result<void> set_knob(Knobs& knobs, std::string_view name, std::string_view value) {
   for (const auto& knob : table) {
     if (knob.name != name) continue;
     if (knob.set(knobs, value)) return {};
-    return fail("--" + std::string(name) + " " + std::string(value) + ": expected " +
-                std::string(knob.values));
+    return base::fail("--" + std::string(name) + " " + std::string(value) + ": expected " +
+                      std::string(knob.values));
   }
-  return fail("--" + std::string(name) + ": no such knob");
+  return base::fail("--" + std::string(name) + ": no such knob");
 }
 
-Result<void> check_knobs(const Knobs& knobs) {
+base::Result<void> check_knobs(const Knobs& knobs) {
   if (knobs.near_z < knobs.far_z) return {};
-  return fail("--near " + get_number<&Knobs::near_z>(knobs) + " --far " + get_number<&Knobs::far_z>(knobs) +
-              ": near must be less than far");
+  return base::fail("--near " + get_number<&Knobs::near_z>(knobs) + " --far " +
+                    get_number<&Knobs::far_z>(knobs) + ": near must be less than far");
 }
 
 }  // namespace scene

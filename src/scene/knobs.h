@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/error.h"
+#include "base/result.h"
 
 namespace scene {
 
@@ -95,10 +95,10 @@ std::span<const KnobInfo> knob_table();
 
 /// Sets one knob by name. Error: unknown name, or a value outside what the table
 /// allows (both named in the text).
-Result<void> set_knob(Knobs& knobs, std::string_view name, std::string_view value);
+base::Result<void> set_knob(Knobs& knobs, std::string_view name, std::string_view value);
 
 /// Knobs that contradict each other (near >= far) or cannot be met by this build.
 /// Call after the last set_knob.
-Result<void> check_knobs(const Knobs& knobs);
+base::Result<void> check_knobs(const Knobs& knobs);
 
 }  // namespace scene

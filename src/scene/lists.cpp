@@ -44,15 +44,16 @@ void BucketSizes::add(const Primitive& p, std::uint32_t bucket) {
   bytes_[bucket] += bytes;
 }
 
-Result<std::vector<BucketRange>> BucketSizes::ranges(std::uint32_t available) const {
+base::Result<std::vector<BucketRange>> BucketSizes::ranges(std::uint32_t available) const {
   std::vector<BucketRange> out;
   std::uint64_t used = 0;
   std::uint32_t last = rule_.length - 1;
   for (std::uint32_t b = rule_.length; b-- > 0;) {
     if (bytes_[b] > available) {
-      return fail("bucket " + std::to_string(b) + " alone needs " + std::to_string(bytes_[b]) +
-                      " bytes of main RAM, " + std::to_string(available) + " are available: use more buckets",
-                  Exit::failed);
+      return base::fail("bucket " + std::to_string(b) + " alone needs " + std::to_string(bytes_[b]) +
+                            " bytes of main RAM, " + std::to_string(available) +
+                            " are available: use more buckets",
+                        base::Exit::failed);
     }
     if (used + bytes_[b] > available) {
       out.push_back({b + 1, last});

@@ -62,7 +62,7 @@ class BucketSizes {
   void add(const Primitive& p, std::uint32_t bucket);
   /// Ranges far to near, each at most `available` bytes. Error: the number of a
   /// bucket that is larger than that.
-  [[nodiscard]] Result<std::vector<BucketRange>> ranges(std::uint32_t available) const;
+  [[nodiscard]] base::Result<std::vector<BucketRange>> ranges(std::uint32_t available) const;
 
  private:
   BucketRule rule_;

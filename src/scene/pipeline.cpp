@@ -48,8 +48,8 @@ class Marker {
   std::size_t next_ = 0;
 };
 
-Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs,
-                       const ot::MainRam& ram, gpu::Gpu& gpu) {
+base::Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs,
+                             const ot::MainRam& ram, gpu::Gpu& gpu) {
   Marker marker(builder, frame, knobs, gpu);
   const auto result =
       ot::walk(ram, frame.head, [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
@@ -57,14 +57,15 @@ Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const Kn
         gpu.gp0(payload);
       });
   if (!result)
-    return fail("the list of frame " + std::to_string(frame.number) + ": " + result.message(), Exit::failed);
+    return base::fail("the list of frame " + std::to_string(frame.number) + ": " + result.message(),
+                      base::Exit::failed);
   return {};
 }
 
 }  // namespace
 
-Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs, ot::MainRam& ram,
-                        gpu::Gpu& gpu) {
+base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs, ot::MainRam& ram,
+                              gpu::Gpu& gpu) {
   using Clock = std::chrono::steady_clock;
   if (auto used = use_targets(builder, knobs, gpu); !used) return used;
   Clock::duration drawing{};
@@ -89,16 +90,17 @@ Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs,
   drawing += Clock::now() - start;
   frame.stats.raster_ms = std::chrono::duration<double, std::milli>(drawing).count();
   if (end.polygons_without_depth != 0) {
-    return fail(std::to_string(end.polygons_without_depth) +
-                    " polygons without depth, the first is drawing command " +
-                    std::to_string(end.first_without_depth) + ": --bucket-depth draws them at their bucket's",
-                Exit::failed);
+    return base::fail(std::to_string(end.polygons_without_depth) +
+                          " polygons without depth, the first is drawing command " +
+                          std::to_string(end.first_without_depth) +
+                          ": --bucket-depth draws them at their bucket's",
+                      base::Exit::failed);
   }
   return {};
 }
 
-Result<FrameStats> render_frame(FrameBuilder& builder, double seconds, const Knobs& knobs, ot::MainRam& ram,
-                                gpu::Gpu& gpu) {
+base::Result<FrameStats> render_frame(FrameBuilder& builder, double seconds, const Knobs& knobs,
+                                      ot::MainRam& ram, gpu::Gpu& gpu) {
   if (builder.needs_upload(knobs)) {
     builder.prepare(knobs);
     builder.upload(gpu);

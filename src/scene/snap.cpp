@@ -127,7 +127,7 @@ class Attributes {
 
 }  // namespace
 
-std::vector<gpu::Corners> triangles_over(const inspect::Rows& rows) {
+std::vector<gpu::Corners> triangles_over(const exact::Rows& rows) {
   std::vector<gpu::Corners> out;
   const auto& spans = rows.spans;
   for (std::size_t i = 0; i < spans.size();) {
@@ -140,7 +140,7 @@ std::vector<gpu::Corners> triangles_over(const inspect::Rows& rows) {
   return out;
 }
 
-std::uint32_t snap(const Primitive& parent, const inspect::Rows& rows, std::vector<Primitive>& out) {
+std::uint32_t snap(const Primitive& parent, const exact::Rows& rows, std::vector<Primitive>& out) {
   const Attributes attributes(parent);
   const auto triangles = triangles_over(rows);
   for (const gpu::Corners& t : triangles) {

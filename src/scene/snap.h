@@ -8,17 +8,17 @@
 
 #include <vector>
 
-#include "gpu/coverage.h"
-#include "inspect/coverage.h"
+#include "exact/rows.h"
+#include "gpu/columns.h"
 #include "scene/submit.h"
 
 namespace scene {
 
 /// Triangles that together cover the pixels of `rows`, each once, by the hardware's rule. Their number grows
 /// with the corners of the shape, not with its rows: edges that look straight are one edge.
-[[nodiscard]] std::vector<gpu::Corners> triangles_over(const inspect::Rows& rows);
+[[nodiscard]] std::vector<gpu::Corners> triangles_over(const exact::Rows& rows);
 
 /// Appends the triangles of `parent` (three corners) that cover `rows`. Returns how many.
-std::uint32_t snap(const Primitive& parent, const inspect::Rows& rows, std::vector<Primitive>& out);
+std::uint32_t snap(const Primitive& parent, const exact::Rows& rows, std::vector<Primitive>& out);
 
 }  // namespace scene

@@ -1,11 +1,11 @@
-#include "app/camera.h"
+#include "app/window/camera.h"
 
 #include <doctest/doctest.h>
 
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "app/held_keys.h"
+#include "app/window/held_keys.h"
 
 namespace {
 
@@ -18,7 +18,7 @@ glm::vec3 forward(const scene::Camera& camera) {
 }
 
 // Looks along -z from (0,0,10) at the origin.
-scene::Camera base() {
+scene::Camera start_camera() {
   scene::Camera camera;
   camera.position = {0, 0, 10};
   return camera;
@@ -28,7 +28,7 @@ scene::Camera base() {
 
 TEST_SUITE("window") {
   TEST_CASE("a camera that nobody moved is the scene's, bit for bit") {
-    auto camera = base();
+    auto camera = start_camera();
     camera.position = {0.1F, 0.2F, 0.3F};
     const auto same = app::moved(camera, {}, 7);
     CHECK(same.position == camera.position);
@@ -38,7 +38,7 @@ TEST_SUITE("window") {
   TEST_CASE("a quarter orbit stands beside the pivot and looks at it") {
     app::CameraOffset offset;
     app::orbit(offset, quarter, 0);
-    const auto camera = app::moved(base(), offset, 10);
+    const auto camera = app::moved(start_camera(), offset, 10);
     CHECK(near(camera.position, {10, 0, 0}));
     CHECK(near(forward(camera), {-1, 0, 0}));
   }
@@ -46,14 +46,14 @@ TEST_SUITE("window") {
   TEST_CASE("an orbit stops straight above the pivot") {
     app::CameraOffset offset;
     app::orbit(offset, 0, -100);
-    const auto camera = app::moved(base(), offset, 10);
+    const auto camera = app::moved(start_camera(), offset, 10);
     CHECK(near(camera.position, {0, 10, 0}));
   }
 
   TEST_CASE("looking round leaves the eye where it is") {
     app::CameraOffset offset;
     app::look(offset, quarter, 0);
-    const auto camera = app::moved(base(), offset, 10);
+    const auto camera = app::moved(start_camera(), offset, 10);
     CHECK(near(camera.position, {0, 0, 10}));
     CHECK(near(forward(camera), {-1, 0, 0}));
   }
@@ -61,21 +61,21 @@ TEST_SUITE("window") {
   TEST_CASE("zooming moves along the line to the pivot, never through it") {
     app::CameraOffset offset;
     app::zoom(offset, 1);
-    CHECK(near(app::moved(base(), offset, 10).position, {0, 0, 9}));
+    CHECK(near(app::moved(start_camera(), offset, 10).position, {0, 0, 9}));
     app::zoom(offset, 10000);
-    CHECK(app::moved(base(), offset, 10).position.z > 0);
+    CHECK(app::moved(start_camera(), offset, 10).position.z > 0);
   }
 
   TEST_CASE("flying follows the way the camera looks") {
     app::CameraOffset offset;
     app::look(offset, quarter, 0);
-    app::fly(offset, base(), {0, 0, -1}, 2);
-    CHECK(near(app::moved(base(), offset, 10).position, {-2, 0, 10}));
+    app::fly(offset, start_camera(), {0, 0, -1}, 2);
+    CHECK(near(app::moved(start_camera(), offset, 10).position, {-2, 0, 10}));
   }
 
   TEST_CASE("the pivot is as far away as the middle of the world") {
     scene::World world;
-    world.camera = base();
+    world.camera = start_camera();
     world.meshes.resize(1);
     world.meshes[0].positions = {{-1, -1, -1}, {1, 1, 1}};
     CHECK(app::pivot_distance(world) == doctest::Approx(1));  // no instance: any distance serves

@@ -5,8 +5,8 @@
 #include <string>
 #include <thread>
 
-#include "app/cost_meter.h"
-#include "app/cost_table.h"
+#include "app/window/cost_meter.h"
+#include "app/window/cost_table.h"
 #include "cost/axes.h"
 #include "demos/demos.h"
 

@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-#include "gpu/compression.h"
+#include "dump/compression.h"
 
 namespace {
 
@@ -235,9 +235,9 @@ TEST_SUITE("otter") {
   }
 
   TEST_CASE("a dump that unpacks to more than 1 GiB is exit 2 and one line, within bounded memory") {
-    for (const auto compression : {gpu::Compression::zstd, gpu::Compression::xz}) {
+    for (const auto compression : {dump::Compression::zstd, dump::Compression::xz}) {
       const Folder folder;
-      const auto frame = gpu::pack(std::vector<std::byte>(64 * mib), compression);
+      const auto frame = dump::pack(std::vector<std::byte>(64 * mib), compression);
       std::string bomb;
       for (int i = 0; i < 24; ++i) bomb.append(reinterpret_cast<const char*>(frame.data()), frame.size());
       REQUIRE(bomb.size() < mib);
@@ -253,7 +253,7 @@ TEST_SUITE("otter") {
 
   TEST_CASE("an xz dump that asks for a window of 4 GiB is exit 2 and one line, within bounded memory") {
     const Folder folder;
-    const auto frame = gpu::pack(std::vector<std::byte>(64), gpu::Compression::xz);
+    const auto frame = dump::pack(std::vector<std::byte>(64), dump::Compression::xz);
     std::string file(reinterpret_cast<const char*>(frame.data()), frame.size());
     // Behind 12 bytes of stream header the block header: its size in words less one, flags, sizes, then
     // filter LZMA2 (21h), 1 byte of properties, which is the dictionary's size; CRC32 at the end.

@@ -1,4 +1,4 @@
-#include "app/inspection.h"
+#include "app/window/inspection.h"
 
 #include <doctest/doctest.h>
 
@@ -21,11 +21,11 @@ struct Inspected {
   app::WindowState state;
 };
 
-bool is_one_colour(const display::Picture& picture) {
+bool is_one_colour(const base::Picture& picture) {
   return std::ranges::all_of(picture.pixels, [&](const auto& p) { return p == picture.pixels.front(); });
 }
 
-std::size_t pixels_unlike(const display::Picture& picture, const display::Rgba& colour) {
+std::size_t pixels_unlike(const base::Picture& picture, const base::Rgba& colour) {
   return static_cast<std::size_t>(
       std::ranges::count_if(picture.pixels, [&](const auto& p) { return !(p == colour); }));
 }

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "app/describe.h"
-#include "app/knob_choices.h"
+#include "app/commands/describe.h"
+#include "app/window/knob_choices.h"
 
 TEST_SUITE("window") {
   TEST_CASE("every choice that the panel offers is a value the knob takes and gives back") {

@@ -1,4 +1,4 @@
-#include "app/layout.h"
+#include "app/window/layout.h"
 
 #include <doctest/doctest.h>
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "app/cost_meter.h"
 #include "app/machine.h"
+#include "app/window/cost_meter.h"
 #include "demos/demos.h"
-#include "scene/load.h"
+#include "load/load.h"
 
 namespace {
 
@@ -31,7 +31,7 @@ bool happens(Condition&& condition) {
 
 /// A file's animation, whose state a copy of the scene might share.
 scene::Scene animated_file() {
-  auto loaded = scene::parse_x3d(
+  auto loaded = load::parse_x3d(
       "<X3D><Scene><Viewpoint position='0 0 8'/><Transform DEF='T'><Shape><Box/></Shape></Transform>"
       "<TimeSensor DEF='C' cycleInterval='2' loop='true'/>"
       "<PositionInterpolator DEF='P' key='0 0.5 1' keyValue='0 0 0 1 1 0 0 0 0'/>"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "display/write_file.h"
+#include "base/write_file.h"
 
 namespace {
 
@@ -38,7 +38,7 @@ std::size_t entries(const fs::path& folder) {
 TEST_SUITE("display") {
   TEST_CASE("a picture comes back from its PNG as 8-bit RGB, pixel for pixel") {
     const Folder folder;
-    display::Picture picture(5, 3);
+    base::Picture picture(5, 3);
     std::uint8_t value = 7;
     for (auto& pixel : picture.pixels) {
       pixel = {value, static_cast<std::uint8_t>(value * 3), static_cast<std::uint8_t>(value * 5), 255};
@@ -58,38 +58,38 @@ TEST_SUITE("display") {
     CHECK(image.width == 5);
     CHECK(image.height == 3);
     image.format = PNG_FORMAT_RGBA;
-    std::vector<display::Rgba> read(15);
+    std::vector<base::Rgba> read(15);
     REQUIRE(png_image_finish_read(&image, nullptr, read.data(), 0, nullptr) != 0);
     CHECK(read == picture.pixels);
   }
 
   TEST_CASE("a file is written whole and leaves no temporary file") {
     const Folder folder;
-    REQUIRE(display::write_file(folder.path / "a", "first"));
-    REQUIRE(display::write_file(folder.path / "a", "second"));
+    REQUIRE(base::write_file(folder.path / "a", "first"));
+    REQUIRE(base::write_file(folder.path / "a", "second"));
     CHECK(contents(folder.path / "a") == "second");
     CHECK(entries(folder.path) == 1);
   }
 
   TEST_CASE("writing through a link replaces the file it names") {
     const Folder folder;
-    REQUIRE(display::write_file(folder.path / "target", "old"));
+    REQUIRE(base::write_file(folder.path / "target", "old"));
     fs::create_symlink("target", folder.path / "link");
-    REQUIRE(display::write_file(folder.path / "link", "new"));
+    REQUIRE(base::write_file(folder.path / "link", "new"));
     CHECK(contents(folder.path / "target") == "new");
     CHECK(fs::is_symlink(folder.path / "link"));
   }
 
   TEST_CASE("a file that cannot be written is an error with exit 1 that names the path") {
-    const auto written = display::write_file("/nonexistent/folder/x.png", "x");
+    const auto written = base::write_file("/nonexistent/folder/x.png", "x");
     REQUIRE_FALSE(written);
-    CHECK(written.error().exit == scene::Exit::failed);
+    CHECK(written.error().exit == base::Exit::failed);
     CHECK(written.error().text == "/nonexistent/folder/x.png: cannot be written: No such file or directory");
   }
 
   TEST_CASE("a folder is not overwritten") {
     const Folder folder;
-    const auto written = display::write_file(folder.path, "x");
+    const auto written = base::write_file(folder.path, "x");
     REQUIRE_FALSE(written);
     CHECK(written.error().text == folder.path.string() + ": cannot be written: Is a directory");
   }

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
-#include "app/window_state.h"
+#include "app/commands/commands.h"
+#include "app/window/window_state.h"
 #include "demos/demos.h"
 #include "scene/knobs.h"
 

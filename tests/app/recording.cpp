@@ -1,4 +1,4 @@
-#include "app/recording.h"
+#include "app/commands/recording.h"
 
 #include <doctest/doctest.h>
 
@@ -26,12 +26,13 @@ std::unique_ptr<gpu::Gpu> drawn(const scene::Scene& scene, std::uint32_t frames,
 }
 
 /// VRAM after replaying a dump, on its way through a file of that format.
-std::unique_ptr<gpu::Gpu> replayed(const gpu::Dump& dump, gpu::DumpFormat format, const scene::Knobs& knobs) {
-  auto parsed = gpu::parse_dump(gpu::write_dump(dump, format));
+std::unique_ptr<gpu::Gpu> replayed(const dump::Dump& dump, dump::DumpFormat format,
+                                   const scene::Knobs& knobs) {
+  auto parsed = dump::parse_dump(dump::write_dump(dump, format));
   REQUIRE(parsed);
   auto gpu = std::make_unique<gpu::Gpu>();
   gpu->set_depth(scene::depth_options(knobs));
-  gpu::replay(*parsed, *gpu);
+  dump::replay(*parsed, *gpu);
   return gpu;
 }
 
@@ -78,8 +79,8 @@ TEST_SUITE("app") {
       const auto live = drawn(scene, 3, knobs);
       const auto recording = app::record(scene, 3, knobs, scene::Annotate::when_needed);
       REQUIRE(recording);
-      CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, knobs), *live));
-      CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::v1, knobs), *live));
+      CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, knobs), *live));
+      CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::v1, knobs), *live));
     }
   }
 
@@ -90,8 +91,8 @@ TEST_SUITE("app") {
     depth.visibility = scene::Visibility::zbuffer;
     const auto recording = app::record(scene, 2, plain, scene::Annotate::always);
     REQUIRE(recording);
-    CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, plain), *drawn(scene, 2, plain)));
-    const auto deep = replayed(recording->dump, gpu::DumpFormat::standard, depth);
+    CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, plain), *drawn(scene, 2, plain)));
+    const auto deep = replayed(recording->dump, dump::DumpFormat::standard, depth);
     CHECK_FALSE(same_vram(*deep, *drawn(scene, 2, plain)));
     CHECK(same_vram(*deep, *drawn(scene, 2, depth)));
   }
@@ -103,7 +104,7 @@ TEST_SUITE("app") {
     tall.height = 480;
     const auto recording = app::record(scene, 3, tall, scene::Annotate::when_needed);
     REQUIRE(recording);
-    CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, tall), *drawn(scene, 3, tall)));
+    CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, tall), *drawn(scene, 3, tall)));
   }
 
   const scene::Knobs bsp{.visibility = scene::Visibility::bsp};
@@ -117,7 +118,7 @@ TEST_SUITE("app") {
       const auto& cost = recording->snapped;
       CHECK(cost.pieces > 0);
       const auto live = drawn(scene, 2, bsp);
-      const auto replay = replayed(recording->dump, gpu::DumpFormat::standard, {});
+      const auto replay = replayed(recording->dump, dump::DumpFormat::standard, {});
       CHECK(cost.pixels == pixels_that_differ(*live, *replay));
       CHECK(cost.worst_pixels <= cost.pixels);
       CHECK(cost.pixels <= 2 * cost.worst_pixels);
@@ -131,7 +132,7 @@ TEST_SUITE("app") {
     REQUIRE(recording);
     CHECK(recording->snapped.pieces > 2);
     CHECK(recording->snapped.pixels == 0);
-    const auto replay = replayed(recording->dump, gpu::DumpFormat::standard, {});
+    const auto replay = replayed(recording->dump, dump::DumpFormat::standard, {});
     CHECK(same_vram(*replay, *drawn(scene, 1, bsp)));
     CHECK_FALSE(same_vram(*replay, *drawn(scene, 1, {})));
   }
@@ -143,7 +144,7 @@ TEST_SUITE("app") {
       const auto recording = app::record(scene, 2, bsp, scene::Annotate::when_needed);
       REQUIRE(recording);
       CHECK(recording->snapped == app::SnapCost{});
-      CHECK(same_vram(*replayed(recording->dump, gpu::DumpFormat::standard, {}), *drawn(scene, 2, bsp)));
+      CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, {}), *drawn(scene, 2, bsp)));
     }
   }
 
@@ -157,10 +158,10 @@ TEST_SUITE("app") {
     scene::Knobs depth;
     depth.visibility = scene::Visibility::zbuffer;
     depth.depth = scene::DepthFormat::bits32;
-    const auto end_of = [&](const gpu::Dump& dump) {
+    const auto end_of = [&](const dump::Dump& dump) {
       gpu::Gpu gpu;
       gpu.set_depth(scene::depth_options(depth));
-      return gpu::replay(dump, gpu).polygons_without_depth;
+      return dump::replay(dump, gpu).polygons_without_depth;
     };
     CHECK(end_of(plain->dump) > 0);
     CHECK(end_of(annotated->dump) == 0);

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "gpu/compression.h"
-#include "gpu/dump.h"
+#include "dump/compression.h"
+#include "dump/dump.h"
 #include "program.h"
 
 namespace {
 
-using gpu::PacketType;
+using dump::PacketType;
 using tests::contents, tests::Folder, tests::is_one_line, tests::mentions;
 using Words = std::vector<std::uint32_t>;
 
@@ -23,8 +23,8 @@ std::string text_of(const std::vector<std::byte>& bytes) {
 }
 
 /// Three fills of 16 x 16 at the origin: red, green, blue; a VSync after each.
-gpu::Dump three_fills() {
-  gpu::Dump dump;
+dump::Dump three_fills() {
+  dump::Dump dump;
   dump.add(PacketType::gpu_version, Words{2});
   for (const std::uint32_t colour : {0x020000f8U, 0x0200f800U, 0x02f80000U}) {
     dump.add(PacketType::port0, Words{colour, 0, 0x00100010});
@@ -33,8 +33,8 @@ gpu::Dump three_fills() {
   return dump;
 }
 
-std::string file_of(const gpu::Dump& dump, gpu::DumpFormat format = gpu::DumpFormat::standard) {
-  return text_of(gpu::write_dump(dump, format));
+std::string file_of(const dump::Dump& dump, dump::DumpFormat format = dump::DumpFormat::standard) {
+  return text_of(dump::write_dump(dump, format));
 }
 
 /// The first pixel of a written VRAM, or FFFFFFFFh.
@@ -96,24 +96,24 @@ TEST_SUITE("otter") {
 
   TEST_CASE("replay reads both forms of dumps, packed or not, whatever they are called") {
     const Folder folder;
-    for (const auto format : {gpu::DumpFormat::standard, gpu::DumpFormat::v1}) {
-      const auto plain = gpu::write_dump(three_fills(), format);
+    for (const auto format : {dump::DumpFormat::standard, dump::DumpFormat::v1}) {
+      const auto plain = dump::write_dump(three_fills(), format);
       folder.put("plain", text_of(plain));
-      folder.put("packed", text_of(gpu::pack(plain, gpu::Compression::zstd)));
-      folder.put("packed.psxgpu", text_of(gpu::pack(plain, gpu::Compression::xz)));
-      folder.put("named.psxgpu.zst", text_of(gpu::pack(plain, gpu::Compression::zstd)));
+      folder.put("packed", text_of(dump::pack(plain, dump::Compression::zstd)));
+      folder.put("packed.psxgpu", text_of(dump::pack(plain, dump::Compression::xz)));
+      folder.put("named.psxgpu.zst", text_of(dump::pack(plain, dump::Compression::zstd)));
       for (const std::string name : {"plain", "packed", "packed.psxgpu", "named.psxgpu.zst"}) {
         CAPTURE(name);
         const auto replayed = folder.otter("replay " + name + " --vram v.bin");
         CHECK(replayed.status == 0);
-        CHECK(mentions(replayed.out, format == gpu::DumpFormat::v1 ? ": v1, " : ": v1r1, "));
+        CHECK(mentions(replayed.out, format == dump::DumpFormat::v1 ? ": v1, " : ": v1r1, "));
         CHECK(first_pixel(folder, "v.bin") == blue);
       }
     }
   }
 
   TEST_CASE("replay --repeat prints the fastest time as a line of its own, and starts anew each time") {
-    gpu::Dump dump;  // adds a quarter of white to the origin: three times would be another picture
+    dump::Dump dump;  // adds a quarter of white to the origin: three times would be another picture
     dump.add(PacketType::port0, Words{0xe1000060, 0xe4000000 | 1023 | 511 << 10, 0x6affffff, 0});
     const Folder folder;
     folder.put("d.psxgpu", file_of(dump));
@@ -139,7 +139,7 @@ TEST_SUITE("otter") {
   }
 
   TEST_CASE("replay --readback keeps what type 4 reads, words with the first pixel in the low half") {
-    gpu::Dump dump;
+    dump::Dump dump;
     dump.add(PacketType::port0, Words{0xa0000000, 0, 0x00010003, 0x22221111, 0x00003333});
     dump.add(PacketType::port0, Words{0xc0000000, 0, 0x00010003});
     dump.add(PacketType::readback, Words{2});
@@ -164,7 +164,7 @@ TEST_SUITE("otter") {
   TEST_CASE("malformed dumps are one line with the byte offset, exit 2, and nothing written") {
     const std::string good = file_of(three_fills());
     const auto with = [](const Words& words) {
-      gpu::Dump dump;
+      dump::Dump dump;
       dump.add(PacketType::port0, words);
       return file_of(dump);
     };
@@ -217,7 +217,7 @@ TEST_SUITE("otter") {
 
   TEST_CASE("an empty display area has no picture: exit 1 and one line, and --vram is written") {
     const Folder folder;
-    gpu::Dump dump;
+    dump::Dump dump;
     dump.add(PacketType::gpu_version, Words{2});
     dump.add(PacketType::port1, Words{0x07000000});  // the display ends on the row where it begins
     folder.put("d.psxgpu", file_of(dump));

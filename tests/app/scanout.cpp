@@ -6,7 +6,7 @@
 
 namespace {
 
-using display::Rgba;
+using base::Rgba;
 
 struct Vram {
   std::vector<std::uint16_t> pixels = std::vector<std::uint16_t>(std::size_t{1024} * 512);

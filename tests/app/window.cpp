@@ -1,6 +1,6 @@
 // The window itself, on SDL's dummy driver: what the outside world does to it.
 
-#include "app/window.h"
+#include "app/window/window.h"
 
 #include <SDL.h>
 #include <doctest/doctest.h>
@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "app/window_state.h"
+#include "app/window/window_state.h"
 #include "demos/demos.h"
-#include "scene/image.h"
+#include "load/pictures.h"
 
 namespace {
 
@@ -26,14 +26,14 @@ namespace fs = std::filesystem;
 app::WindowOptions resting_window() {
   app::WindowOptions options;
   options.scenes.push_back(
-      {"crates", [] { return scene::Result<scene::Scene>(demos::make(*demos::find("crates"))); }});
+      {"crates", [] { return base::Result<scene::Scene>(demos::make(*demos::find("crates"))); }});
   options.first.paused = true;
   options.scale = 1;
   return options;
 }
 
 /// Runs a window that finds these events waiting.
-scene::Result<int> run_with(const app::WindowOptions& options, const std::vector<Uint32>& events) {
+base::Result<int> run_with(const app::WindowOptions& options, const std::vector<Uint32>& events) {
   setenv("SDL_VIDEODRIVER", "dummy", 1);
   REQUIRE(SDL_Init(SDL_INIT_EVENTS) == 0);
   for (const auto type : events) {
@@ -53,7 +53,7 @@ std::vector<std::uint32_t> picture_after(app::WindowOptions options, const std::
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   fs::remove(path);
-  auto image = scene::decode_picture(bytes);
+  auto image = load::decode_picture(bytes);
   REQUIRE(image);
   std::vector<std::uint32_t> picture;
   for (std::size_t i = 0; i < static_cast<std::size_t>(image->width) * 240; ++i) {

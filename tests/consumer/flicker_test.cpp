@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "gpu/gpu.h"
-#include "inspect/doctest.h"
+#include "inspect/check.h"
 #include "ot/main_ram.h"
 #include "ot/ordering_table.h"
 #include "ot/packet.h"

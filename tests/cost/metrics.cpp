@@ -6,8 +6,8 @@
 
 #include "cost/sweep.h"
 
-using display::Picture;
-using display::Rgba;
+using base::Picture;
+using base::Rgba;
 
 TEST_SUITE("cost") {
   TEST_CASE("rms and PSNR of pictures that differ by 10 everywhere are 10 and 28.13 dB") {
@@ -99,12 +99,12 @@ TEST_SUITE("cost") {
   }
 
   TEST_CASE("a heat map is black where pictures agree, white where a channel is as far as can be") {
-    display::Picture a(3, 1);
-    display::Picture b = a;
+    base::Picture a(3, 1);
+    base::Picture b = a;
     b.at(1, 0) = {0, 255, 0};
     b.at(2, 0) = {2, 0, 1};
     const auto map = cost::heat_map(a, b);
-    CHECK(map.at(0, 0) == display::Rgba{0, 0, 0});
+    CHECK(map.at(0, 0) == base::Rgba{0, 0, 0});
     CHECK(map.at(1, 0) == cost::heat(255));
     CHECK(map.at(2, 0) == cost::heat(2));
     const auto brightness = [](int d) {

@@ -32,8 +32,8 @@ struct Eye {
   [[nodiscard]] glm::dvec2 ray(double x, double y) const { return {(x - 160) / h, (120 - y) / h}; }
 };
 
-display::Picture drawn(const scene::Scene& scene,
-                       std::initializer_list<std::pair<std::string_view, std::string_view>> values) {
+base::Picture drawn(const scene::Scene& scene,
+                    std::initializer_list<std::pair<std::string_view, std::string_view>> values) {
   auto knobs = cost::accurate_knobs({});
   knobs.antialias = {};
   for (const auto& [knob, value] : values) REQUIRE(scene::set_knob(knobs, knob, value));
@@ -43,8 +43,8 @@ display::Picture drawn(const scene::Scene& scene,
 }
 
 /// Root mean square distance of the pixels for which there is a reference, of 255.
-double distance(const display::Picture& picture,
-                const std::function<std::optional<Colour>(int, int)>& reference, double* greatest = nullptr) {
+double distance(const base::Picture& picture, const std::function<std::optional<Colour>(int, int)>& reference,
+                double* greatest = nullptr) {
   double sum = 0;
   int count = 0;
   for (int y = 0; y < height; ++y) {

@@ -103,7 +103,7 @@ TEST_SUITE("cost") {
   }
 
   TEST_CASE("base64 of a picture is a PNG") {
-    const auto text = cost::png_base64(display::Picture(3, 2, display::Rgba{1, 2, 3}));
+    const auto text = cost::png_base64(base::Picture(3, 2, base::Rgba{1, 2, 3}));
     CHECK(text.starts_with("iVBORw0KGgo"));
     CHECK(text.size() % 4 == 0);
   }

@@ -1,22 +1,22 @@
 // Any bytes as an OBJ; what stands behind a line "#MTL" is read as its material library too.
 
-#include "scene/obj.h"
+#include "load/obj.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
-#include "scene/image.h"
+#include "load/pictures.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
   const auto cut = text.find("#MTL\n");
-  const scene::Source source{"fuzz.obj", "/nonexistent"};
-  (void)scene::parse_obj(text.substr(0, cut), source);
+  const load::Source source{"fuzz.obj", "/nonexistent"};
+  (void)load::parse_obj(text.substr(0, cut), source);
   if (cut == std::string::npos) return 0;
   scene::World world;
   std::vector<std::string> warnings;
-  scene::Pictures pictures(source, world, warnings);
+  load::Pictures pictures(source, world, warnings);
   std::map<std::string, scene::ObjMaterial, std::less<>> materials;
   scene::parse_mtl(text.substr(cut), pictures, materials);
   return 0;

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "scene/image.h"
+#include "load/pictures.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  (void)scene::decode_picture({reinterpret_cast<const char*>(data), size}, std::size_t{1} << 20);
+  (void)load::decode_picture({reinterpret_cast<const char*>(data), size}, std::size_t{1} << 20);
   return 0;
 }

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "gpu/dump.h"
+#include "dump/dump.h"
 #include "gpu/gpu.h"
 #include "tests/vectors.h"
 
@@ -36,9 +36,9 @@ std::vector<char> read_bytes(const std::filesystem::path& path) {
 
 void replay(const std::filesystem::path& path, gpu::Gpu& gpu) {
   const std::vector<char> bytes = read_bytes(path);
-  const auto dump = gpu::parse_dump(std::as_bytes(std::span(bytes)));
+  const auto dump = dump::parse_dump(std::as_bytes(std::span(bytes)));
   REQUIRE_MESSAGE(dump.value.has_value(), dump.message);
-  gpu::replay(*dump.value, gpu);
+  dump::replay(*dump.value, gpu);
 }
 
 struct Difference {

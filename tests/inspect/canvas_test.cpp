@@ -9,7 +9,7 @@
 
 #include "../oracle/ray_caster.h"
 #include "demos/demos.h"
-#include "inspect/image.h"
+#include "inspect/maps.h"
 #include "random_triangles.h"
 #include "stage.h"
 #include "watcher.h"

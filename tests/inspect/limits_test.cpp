@@ -1,14 +1,14 @@
 #include <doctest/doctest.h>
 
+#include "exact/split.h"
 #include "gpu/gpu.h"
-#include "inspect/bsp.h"
 #include "ot/packet.h"
 #include "random_triangles.h"
 
 namespace {
 
 // A gouraud textured dithered triangle, additive: drawing a pixel twice shows.
-std::vector<std::uint32_t> packet(const inspect::Triangle& t) {
+std::vector<std::uint32_t> packet(const exact::Triangle& t) {
   ot::Polygon p{.gouraud = true, .textured = true, .semi_transparent = true};
   for (std::size_t i = 0; i < 3; ++i) {
     p.xy[i] = {static_cast<std::int16_t>(t[i].x >> 8), static_cast<std::int16_t>(t[i].y >> 8)};
@@ -38,7 +38,7 @@ gpu::Gpu prepared() {
 TEST_SUITE("inspect") {
   TEST_CASE("the pieces of a triangle draw what the triangle draws, attributes included") {
     tests::RandomTriangles random(21);
-    const inspect::Area area{-8, -32, 55, 223};  // the drawing area, less the offset
+    const exact::Area area{-8, -32, 55, 223};  // the drawing area, less the offset
     std::uint32_t splits = 0;
     for (int scene = 0; scene < 20; ++scene) {
       const auto triangles = random.scene(tests::Kind::whole_pixels, 12, 40);

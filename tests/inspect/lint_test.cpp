@@ -7,19 +7,19 @@
 #include <nlohmann/json.hpp>
 
 #include "inspect/history.h"
-#include "inspect/image.h"
 #include "inspect/json.h"
+#include "inspect/maps.h"
 #include "ot/ordering_table.h"
 #include "stage.h"
 
 namespace {
 
-constexpr std::uint32_t base = 0x1000, length = 8;
+constexpr std::uint32_t table_at = 0x1000, length = 8;
 
 // A cleared table of eight buckets.
 struct Ram {
   ot::MainRam ram{ot::RamSize::mib2};
-  ot::OrderingTable table{ram, base, length};
+  ot::OrderingTable table{ram, table_at, length};
   Ram() { table.clear(); }
 
   // A dot at `address`, not linked yet.
@@ -30,7 +30,7 @@ struct Ram {
     return address;
   }
   [[nodiscard]] std::vector<inspect::LintItem> lint() const {
-    return inspect::lint_list(ram, table.head(), inspect::TableRange{base, length});
+    return inspect::lint_list(ram, table.head(), inspect::TableRange{table_at, length});
   }
 };
 
@@ -76,14 +76,14 @@ TEST_SUITE("inspect") {
 
   TEST_CASE("a link outside RAM is named") {
     Ram r;
-    r.ram.write(base, 0x00900000);
+    r.ram.write(table_at, 0x00900000);
     CHECK(has(r.lint(), "outside-ram", "900000h"));
   }
 
   TEST_CASE("a packet on the word above the table was inserted at the length, one on the word below at -1") {
     Ram r;
-    r.ram.write(base + 4 * length, r.packet(0x2000));
-    r.ram.write(base - 4, r.packet(0x2010));
+    r.ram.write(table_at + 4 * length, r.packet(0x2000));
+    r.ram.write(table_at - 4, r.packet(0x2010));
     const auto items = r.lint();
     CHECK(has(items, "bucket-range", "001020h"));
     CHECK(has(items, "bucket-range", "000FFCh"));
@@ -198,8 +198,8 @@ TEST_SUITE("inspect") {
     stage.quad(0, 0, 8, 4, 50, {.semi_transparent = true, .rgb = {0, 0, 255}});  // (B + F) / 2
     const auto report = stage.report();
     const auto image = inspect::truth_image(report, stage.trace(), stage.gpu().vram().pixels());
-    CHECK(image.at(1, 6) == inspect::Rgb{255, 0, 0});
-    CHECK(image.at(1, 1) == inspect::Rgb{123, 0, 123});  // (31 + 0) >> 1 = 15, widened to 123
+    CHECK(image.at(1, 6) == base::Rgba{255, 0, 0});
+    CHECK(image.at(1, 1) == base::Rgba{123, 0, 123});  // (31 + 0) >> 1 = 15, widened to 123
     const auto heat = inspect::heatmap(report, stage.gpu().vram().pixels());
     CHECK(heat.at(1, 6) == inspect::colour_of(inspect::Cause::list_order));
     CHECK(heat.height > 8);  // the legend

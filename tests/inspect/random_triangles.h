@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "inspect/bsp.h"
+#include "exact/split.h"
 
 namespace tests {
 
@@ -19,8 +19,8 @@ class RandomTriangles {
   explicit RandomTriangles(std::uint32_t seed) : engine_(seed) {}
 
   /// `count` triangles around a screen of size x size pixels.
-  std::vector<inspect::Triangle> scene(Kind kind, int count, int size) {
-    std::vector<inspect::Triangle> triangles;
+  std::vector<exact::Triangle> scene(Kind kind, int count, int size) {
+    std::vector<exact::Triangle> triangles;
     triangles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) triangles.push_back(triangle(kind, size, triangles));
     return triangles;
@@ -31,8 +31,8 @@ class RandomTriangles {
   }
 
  private:
-  inspect::Triangle triangle(Kind kind, int size, const std::vector<inspect::Triangle>& others) {
-    inspect::Triangle t;
+  exact::Triangle triangle(Kind kind, int size, const std::vector<exact::Triangle>& others) {
+    exact::Triangle t;
     for (auto& corner : t) {
       corner.x = between(-256, 256 * (size + 1));
       corner.y = between(-256, 256 * (size + 1));

@@ -19,7 +19,7 @@ std::map<std::pair<int, int>, int> covered(const std::vector<gpu::Corners>& tria
   return pixels;
 }
 
-std::map<std::pair<int, int>, int> once(const inspect::Rows& rows) {
+std::map<std::pair<int, int>, int> once(const exact::Rows& rows) {
   std::map<std::pair<int, int>, int> pixels;
   for (int y = rows.top; y < rows.bottom(); ++y) {
     for (int x = rows.at(y).left; x < rows.at(y).right; ++x) pixels[{x, y}] = 1;
@@ -31,7 +31,7 @@ std::map<std::pair<int, int>, int> once(const inspect::Rows& rows) {
 
 TEST_SUITE("inspect") {
   TEST_CASE("a rectangle of pixels is two triangles") {
-    const inspect::Rows rows{3, {{2, 9}, {2, 9}, {2, 9}, {2, 9}}};
+    const exact::Rows rows{3, {{2, 9}, {2, 9}, {2, 9}, {2, 9}}};
     const auto triangles = scene::triangles_over(rows);
     CHECK(triangles.size() == 2);
     CHECK(covered(triangles) == once(rows));
@@ -40,7 +40,7 @@ TEST_SUITE("inspect") {
   // x >= y / 3 for 31 rows, the steps 0, 1, 1, 1, 2, 2, 2, ..., 10: the edge from (0,0) to (10,31) has them
   // all, because y * 10 / 31 is below y / 3 by less than a third.
   TEST_CASE("a staircase that is a straight edge is one edge") {
-    inspect::Rows rows{0, {}};
+    exact::Rows rows{0, {}};
     for (int y = 0; y < 31; ++y) rows.spans.push_back({(y + 2) / 3, 40});
     const auto triangles = scene::triangles_over(rows);
     CHECK(triangles.size() == 2);
@@ -48,10 +48,9 @@ TEST_SUITE("inspect") {
   }
 
   TEST_CASE("a single pixel, rows that do not touch, and rows without pixels between are covered") {
-    for (const inspect::Rows& rows :
-         {inspect::Rows{-4, {{7, 8}}}, inspect::Rows{0, {{3, 4}, {7, 8}, {11, 12}}},
-          inspect::Rows{0, {{3, 5}, {}, {}, {7, 8}, {9, 10}}},
-          inspect::Rows{0, {{0, 1}, {0, 100}, {99, 100}}}}) {
+    for (const exact::Rows& rows :
+         {exact::Rows{-4, {{7, 8}}}, exact::Rows{0, {{3, 4}, {7, 8}, {11, 12}}},
+          exact::Rows{0, {{3, 5}, {}, {}, {7, 8}, {9, 10}}}, exact::Rows{0, {{0, 1}, {0, 100}, {99, 100}}}}) {
       CHECK(covered(scene::triangles_over(rows)) == once(rows));
     }
     CHECK(scene::triangles_over({}).empty());
@@ -60,7 +59,7 @@ TEST_SUITE("inspect") {
   TEST_CASE("any rows at all are covered exactly, each pixel once") {
     tests::RandomTriangles random(71);
     for (int shape = 0; shape < 3000; ++shape) {
-      inspect::Rows rows{random.between(-20, 20), {}};
+      exact::Rows rows{random.between(-20, 20), {}};
       const int height = random.between(1, 24), wildness = random.between(0, 12);
       int left = random.between(-30, 30), right = left + random.between(1, 30);
       for (int y = 0; y < height; ++y) {

@@ -31,7 +31,7 @@ tests::Kind kind_of(int scene) {
 }
 
 // On whole pixels, as the console draws.
-std::array<oracle::Corner, 3> for_oracle(const inspect::Triangle& t) {
+std::array<oracle::Corner, 3> for_oracle(const exact::Triangle& t) {
   std::array<oracle::Corner, 3> corners;
   for (std::size_t i = 0; i < 3; ++i) corners[i] = {t[i].x & ~255, t[i].y & ~255, std::max(t[i].z, 1U)};
   return corners;

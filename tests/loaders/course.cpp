@@ -8,11 +8,12 @@
 #include <cmath>
 
 #include "../vectors.h"
+#include "base/read_file.h"
 #include "display/scanout.h"
 #include "gpu/gpu.h"
+#include "load/load.h"
+#include "load/pictures.h"
 #include "ot/main_ram.h"
-#include "scene/image.h"
-#include "scene/load.h"
 #include "scene/pipeline.h"
 
 namespace {
@@ -38,14 +39,14 @@ struct View {
 };
 
 View reference(const std::filesystem::path& file) {
-  const auto bytes = scene::read_file(file, scene::limits::picture_bytes);
+  const auto bytes = base::read_regular_file(file, load::limits::picture_bytes);
   REQUIRE(bytes);
-  auto picture = scene::decode_picture(*bytes);
+  auto picture = load::decode_picture(*bytes);
   REQUIRE(picture);
   return {picture->width, picture->height, std::move(picture->pixels)};
 }
 
-View drawn(const scene::Result<scene::LoadedScene>& loaded) {
+View drawn(const base::Result<load::LoadedScene>& loaded) {
   REQUIRE(loaded);
   CHECK(loaded->warnings.empty());
   scene::Knobs knobs;
@@ -92,7 +93,7 @@ TEST_SUITE("loaders") {
               .append(
                   "'/><Shape><Box size='99 99 1'/><Appearance><Material diffuseColor='0.5 0.5 0' "
                   "emissiveColor='0.25 0 0.75'/></Appearance></Shape></Scene></X3D>");
-      return drawn(scene::parse_x3d(text, {"s.x3d", "."})).at(0, 0);
+      return drawn(load::parse_x3d(text, {"s.x3d", "."})).at(0, 0);
     };
     const auto is_near = [](const Colour& c, double r, double g, double b) {
       return std::abs(c.r - r) <= 8 && std::abs(c.g - g) <= 8 && std::abs(c.b - b) <= 8;
@@ -124,7 +125,7 @@ TEST_SUITE("loaders") {
       const auto folder = tests::vector_path(("x3d/" + name).c_str());
       if (!folder) continue;
       const Difference d =
-          compare(drawn(scene::load(*folder / (name + ".x3d"))), reference(*folder / (name + ".png")));
+          compare(drawn(load::load(*folder / (name + ".x3d"))), reference(*folder / (name + ".png")));
       MESSAGE(name, ": shape ", d.shape, ", colour ", d.colour);
       CHECK(d.shape < course.shape);
       CHECK(d.colour < course.colour);

@@ -71,9 +71,9 @@ std::string bmp(int width, int height, unsigned char r, unsigned char g, unsigne
   return out;
 }
 
-std::string refusal(const scene::Result<scene::LoadedScene>& loaded) {
+std::string refusal(const base::Result<load::LoadedScene>& loaded) {
   if (loaded) return "";
-  CHECK(loaded.error().exit == scene::Exit::bad_input);
+  CHECK(loaded.error().exit == base::Exit::bad_input);
   CHECK(loaded.error().text.find('\n') == std::string::npos);
   return loaded.error().text;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/load.h"
+#include "load/load.h"
 
 namespace tests {
 
@@ -31,11 +31,10 @@ std::string bmp(int width, int height, unsigned char r, unsigned char g, unsigne
 
 /// The line an input is refused with, "" if it is accepted. Also checks that it is
 /// one line and exit status 2.
-std::string refusal(const scene::Result<scene::LoadedScene>& loaded);
+std::string refusal(const base::Result<load::LoadedScene>& loaded);
 
-inline scene::Result<scene::LoadedScene> obj(std::string_view text,
-                                             const std::filesystem::path& folder = ".") {
-  return scene::parse_obj(text, {"model.obj", folder});
+inline base::Result<load::LoadedScene> obj(std::string_view text, const std::filesystem::path& folder = ".") {
+  return load::parse_obj(text, {"model.obj", folder});
 }
 
 }  // namespace tests

@@ -1,11 +1,10 @@
-#include "scene/image.h"
-
 #include <doctest/doctest.h>
 
 #include <array>
 #include <cstdlib>
 
 #include "files.h"
+#include "load/pictures.h"
 
 namespace {
 
@@ -32,7 +31,7 @@ TEST_SUITE("loaders") {
     for (const auto& [bytes, error] :
          {std::pair{tests::png(13, 7, 200, 100, 50), 0}, std::pair{tests::jpeg(13, 7, 200, 100, 50), 3},
           std::pair{tests::tga(13, 7, 200, 100, 50), 0}, std::pair{tests::bmp(13, 7, 200, 100, 50), 0}}) {
-      const auto texture = scene::decode_picture(bytes);
+      const auto texture = load::decode_picture(bytes);
       REQUIRE(texture);
       CHECK(texture->width == 13);
       CHECK(texture->height == 7);
@@ -42,28 +41,28 @@ TEST_SUITE("loaders") {
   }
 
   TEST_CASE("a picture's alpha is kept") {
-    const auto texture = scene::decode_picture(tests::png(2, 2, 1, 2, 3, 77));
+    const auto texture = load::decode_picture(tests::png(2, 2, 1, 2, 3, 77));
     REQUIRE(texture);
     CHECK(texture->pixels[3] == Rgba8{1, 2, 3, 77});
   }
 
   TEST_CASE("a header that announces 16384 x 16384 is refused before anything is decoded") {
-    const auto texture = scene::decode_picture(png_header(16384, 16384));
+    const auto texture = load::decode_picture(png_header(16384, 16384));
     REQUIRE(!texture);
     CHECK(texture.error().text.find("8192 x 8192") != std::string::npos);
   }
 
   TEST_CASE("pictures of one scene share a limit of texels, judged by the header") {
-    CHECK(scene::decode_picture(tests::png(8, 8, 0, 0, 0), 64));
-    CHECK(!scene::decode_picture(tests::png(8, 8, 0, 0, 0), 63));
+    CHECK(load::decode_picture(tests::png(8, 8, 0, 0, 0), 64));
+    CHECK(!load::decode_picture(tests::png(8, 8, 0, 0, 0), 63));
   }
 
   TEST_CASE("bytes that are no picture, and every truncation of one, give an error and nothing else") {
-    CHECK(!scene::decode_picture(""));
-    CHECK(!scene::decode_picture("not a picture at all, but long enough to be one"));
+    CHECK(!load::decode_picture(""));
+    CHECK(!load::decode_picture("not a picture at all, but long enough to be one"));
     for (const std::string& whole : {tests::png(9, 9, 9, 9, 9), tests::jpeg(9, 9, 9, 9, 9)}) {
-      for (std::size_t size = 0; size < 40; ++size) CHECK(!scene::decode_picture(whole.substr(0, size)));
-      for (std::size_t size = 40; size < whole.size(); ++size) scene::decode_picture(whole.substr(0, size));
+      for (std::size_t size = 0; size < 40; ++size) CHECK(!load::decode_picture(whole.substr(0, size)));
+      for (std::size_t size = 40; size < whole.size(); ++size) load::decode_picture(whole.substr(0, size));
     }
   }
 
@@ -74,7 +73,7 @@ TEST_SUITE("loaders") {
         0xb6, 0x0d, 0x24, 0x00, 0x00, 0x00, 0x00, 0x49, 0x44, 0x41, 0x54, 0x78, 0x9c, 0x32, 0x60,
         0x80, 0x03, 0x66, 0x46, 0x76, 0x56, 0x26, 0x32, 0x0a, 0x16, 0x00, 0x66, 0x00, 0x1d, 0x5f,
         0xd2, 0x60, 0xf1, 0x00, 0x00, 0x00, 0x00, 0x49, 0x45, 0x4e, 0x44, 0x9c, 0x63, 0x60, 0x80};
-    CHECK(!scene::decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
+    CHECK(!load::decode_picture({reinterpret_cast<const char*>(bytes.data()), bytes.size()}));
   }
 
   TEST_CASE("a small PNG whose data inflate far beyond its size is refused") {
@@ -82,7 +81,7 @@ TEST_SUITE("loaders") {
     std::string bomb = tests::png(2000, 2000, 0, 0, 0, 0);
     const std::string small = png_header(1, 1);
     bomb.replace(0, small.size(), small);
-    CHECK(!scene::decode_picture(bomb));
+    CHECK(!load::decode_picture(bomb));
   }
 
   TEST_CASE(
@@ -94,7 +93,7 @@ TEST_SUITE("loaders") {
     for (const char* name : {"a.png", "./a.png", ".\\a.png", "sub/../a.png", "C:\\art\\a.png",
                              "/home/me/a.png", "sub\\b.png", "../elsewhere/a.png"}) {
       CAPTURE(name);
-      CHECK(scene::resolve(folder.path(), name));
+      CHECK(load::resolve(folder.path(), name));
     }
   }
 
@@ -108,7 +107,7 @@ TEST_SUITE("loaders") {
          {std::string("../secret.png"), (outer.path() / "secret.png").string(), std::string("link.png"),
           std::string("/dev/zero"), std::string("."), std::string(""), std::string("a\0.png", 6)}) {
       CAPTURE(name);
-      CHECK(!scene::resolve(scene_folder, name));
+      CHECK(!load::resolve(scene_folder, name));
     }
   }
 }

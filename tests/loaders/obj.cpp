@@ -1,4 +1,4 @@
-#include "scene/obj.h"
+#include "load/obj.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "files.h"
-#include "scene/load_faces.h"
+#include "load/faces.h"
 
 namespace {
 
@@ -15,8 +15,8 @@ using tests::refusal;
 
 const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
-const Mesh& mesh_of(const scene::LoadedScene& loaded) { return loaded.scene.world.meshes.at(0); }
-const Material& material_of(const scene::LoadedScene& loaded, const Face& face) {
+const Mesh& mesh_of(const load::LoadedScene& loaded) { return loaded.scene.world.meshes.at(0); }
+const Material& material_of(const load::LoadedScene& loaded, const Face& face) {
   return loaded.scene.world.materials.at(face.material);
 }
 
@@ -240,16 +240,16 @@ TEST_SUITE("loaders") {
 
   TEST_CASE("scene files: missing, empty, a folder and an unknown kind are refused in one line") {
     const tests::Folder folder;
-    CHECK(refusal(scene::load(folder.path() / "none.obj")).find("no such file") != std::string::npos);
-    CHECK(refusal(scene::load(folder.write("e.obj", ""))).find("empty") != std::string::npos);
-    CHECK(refusal(scene::load(folder.write("m.stl", "solid"))).find(".obj or .x3d") != std::string::npos);
+    CHECK(refusal(load::load(folder.path() / "none.obj")).find("no such file") != std::string::npos);
+    CHECK(refusal(load::load(folder.write("e.obj", ""))).find("empty") != std::string::npos);
+    CHECK(refusal(load::load(folder.write("m.stl", "solid"))).find(".obj or .x3d") != std::string::npos);
     std::filesystem::create_directory(folder.path() / "d.obj");
-    CHECK(refusal(scene::load(folder.path() / "d.obj")).find("not a regular file") != std::string::npos);
+    CHECK(refusal(load::load(folder.path() / "d.obj")).find("not a regular file") != std::string::npos);
   }
 
   TEST_CASE("scene files: the scene bears its file's name, and the extension may be in capitals") {
     const tests::Folder folder;
-    const auto loaded = scene::load(folder.write("Model.OBJ", corners + "f 1 2 3\n"));
+    const auto loaded = load::load(folder.write("Model.OBJ", corners + "f 1 2 3\n"));
     REQUIRE(loaded);
     CHECK(loaded->scene.name == "Model.OBJ");
   }

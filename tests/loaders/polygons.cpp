@@ -3,16 +3,16 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "scene/load_faces.h"
+#include "load/faces.h"
 
 namespace {
 
 using scene::none;
 
-std::vector<scene::Piece> split(const std::vector<glm::vec3>& polygon) {
-  std::uint64_t work = scene::split_work;
-  std::vector<scene::Piece> pieces;
-  scene::split_polygon(polygon, work, pieces);
+std::vector<load::Piece> split(const std::vector<glm::vec3>& polygon) {
+  std::uint64_t work = load::split_work;
+  std::vector<load::Piece> pieces;
+  load::split_polygon(polygon, work, pieces);
   return pieces;
 }
 
@@ -23,8 +23,8 @@ double area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
 
 TEST_SUITE("loaders") {
   TEST_CASE("a triangle stays one, a flat convex quad stays a quad, fewer corners are nothing") {
-    CHECK(split({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) == std::vector<scene::Piece>{{0, 1, 2, none}});
-    CHECK(split({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}) == std::vector<scene::Piece>{{0, 1, 2, 3}});
+    CHECK(split({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}) == std::vector<load::Piece>{{0, 1, 2, none}});
+    CHECK(split({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}) == std::vector<load::Piece>{{0, 1, 2, 3}});
     CHECK(split({{0, 0, 0}, {1, 0, 0}}).empty());
     CHECK(split({}).empty());
   }
@@ -36,7 +36,7 @@ TEST_SUITE("loaders") {
   TEST_CASE("a convex polygon becomes a fan round its first corner") {
     std::vector<glm::vec3> hexagon{{2, 0, 0}, {1, 2, 0}, {-1, 2, 0}, {-2, 0, 0}, {-1, -2, 0}, {1, -2, 0}};
     CHECK(split(hexagon) ==
-          std::vector<scene::Piece>{{0, 1, 2, none}, {0, 2, 3, none}, {0, 3, 4, none}, {0, 4, 5, none}});
+          std::vector<load::Piece>{{0, 1, 2, none}, {0, 2, 3, none}, {0, 3, 4, none}, {0, 4, 5, none}});
   }
 
   TEST_CASE("concave polygons are covered exactly: every piece faces the front and the areas add up") {
@@ -48,7 +48,7 @@ TEST_SUITE("loaders") {
       for (std::size_t i = 1; i + 1 < polygon.size(); ++i)
         whole += area(polygon[0], polygon[i], polygon[i + 1]);
       double sum = 0;
-      for (const scene::Piece& p : split(polygon)) {
+      for (const load::Piece& p : split(polygon)) {
         REQUIRE(p[3] == none);
         const double piece = area(polygon[p[0]], polygon[p[1]], polygon[p[2]]);
         CHECK(piece > 0);
@@ -71,8 +71,8 @@ TEST_SUITE("loaders") {
     saw.emplace_back(20000, 100, 0);
     saw.emplace_back(-1, 100, 0);
     std::uint64_t work = 1000;
-    std::vector<scene::Piece> pieces;
-    scene::split_polygon(saw, work, pieces);
+    std::vector<load::Piece> pieces;
+    load::split_polygon(saw, work, pieces);
     CHECK(pieces.size() == saw.size() - 2);
     CHECK(work < 1000);
   }
@@ -83,15 +83,15 @@ TEST_SUITE("loaders") {
     const std::vector<std::array<std::uint32_t, 4>> sides{{4, 5, 7, 6}, {1, 0, 2, 3}, {5, 1, 3, 7},
                                                           {0, 4, 6, 2}, {6, 7, 3, 2}, {0, 1, 5, 4}};
     for (const auto& side : sides) cube.faces.push_back({.vertex = side});
-    CHECK(scene::faces_of_closed_surfaces(cube) == std::vector<bool>(6, true));
+    CHECK(load::faces_of_closed_surfaces(cube) == std::vector<bool>(6, true));
 
     scene::Mesh open = cube;
     open.faces.pop_back();
-    CHECK(scene::faces_of_closed_surfaces(open) == std::vector<bool>(5, false));
+    CHECK(load::faces_of_closed_surfaces(open) == std::vector<bool>(5, false));
 
     scene::Mesh inside_out = cube;
     for (scene::Face& f : inside_out.faces) std::swap(f.vertex[1], f.vertex[3]);
-    CHECK(scene::faces_of_closed_surfaces(inside_out) == std::vector<bool>(6, false));
+    CHECK(load::faces_of_closed_surfaces(inside_out) == std::vector<bool>(6, false));
   }
 
   TEST_CASE("surfaces are judged apart, and vertices that lie on one another count as one") {
@@ -104,7 +104,7 @@ TEST_SUITE("loaders") {
       mesh.positions.insert(mesh.positions.end(), triangle.begin(), triangle.end());
       mesh.faces.push_back({.vertex = {first, first + 1, first + 2, none}});
     }
-    CHECK(scene::faces_of_closed_surfaces(mesh) == std::vector<bool>{true, true, true, true, false});
+    CHECK(load::faces_of_closed_surfaces(mesh) == std::vector<bool>{true, true, true, true, false});
   }
 }
 

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "scene/load_faces.h"
+#include "load/faces.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ TEST_SUITE("loaders") {
       const char* name = solid.first;
       const Mesh& mesh = solid.second;
       CAPTURE(name);
-      for (const bool closed : scene::faces_of_closed_surfaces(mesh)) CHECK(closed);
+      for (const bool closed : load::faces_of_closed_surfaces(mesh)) CHECK(closed);
     }
   }
 
@@ -56,7 +56,7 @@ TEST_SUITE("loaders") {
       const char* name = solid.first;
       const Mesh& mesh = solid.second;
       CAPTURE(name);
-      scene::Bounds bounds;
+      load::Bounds bounds;
       for (const glm::vec3& p : mesh.positions) bounds.include(p);
       CHECK(glm::length(bounds.centre()) < 1e-6F);
       const glm::vec3 size = bounds.high - bounds.low;
@@ -93,7 +93,7 @@ TEST_SUITE("loaders") {
   TEST_CASE("a cylinder without its lids is its side alone, and is open") {
     const Mesh tube = scene::cylinder(1, 2, {.top = false, .bottom = false});
     CHECK(tube.faces.size() == 32);
-    CHECK(!scene::faces_of_closed_surfaces(tube)[0]);
+    CHECK(!load::faces_of_closed_surfaces(tube)[0]);
   }
 }
 

@@ -1,4 +1,4 @@
-#include "scene/x3d.h"
+#include "load/x3d/x3d.h"
 
 #include <doctest/doctest.h>
 
@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "files.h"
-#include "scene/load_faces.h"
+#include "load/faces.h"
 
 namespace {
 
@@ -15,11 +15,10 @@ using tests::refusal;
 
 constexpr const char* triangle = "<TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet>";
 
-scene::Result<scene::LoadedScene> parse(const std::string& inside,
-                                        const std::filesystem::path& folder = ".") {
-  return scene::parse_x3d("<X3D><Scene>\n" + inside + "\n</Scene></X3D>", {"s.x3d", folder});
+base::Result<load::LoadedScene> parse(const std::string& inside, const std::filesystem::path& folder = ".") {
+  return load::parse_x3d("<X3D><Scene>\n" + inside + "\n</Scene></X3D>", {"s.x3d", folder});
 }
-scene::LoadedScene read(const std::string& inside, const std::filesystem::path& folder = ".") {
+load::LoadedScene read(const std::string& inside, const std::filesystem::path& folder = ".") {
   auto loaded = parse(inside, folder);
   if (!loaded) FAIL(loaded.error().text);
   return std::move(*loaded);
@@ -364,7 +363,7 @@ TEST_SUITE("loaders") {
 
   TEST_CASE("X3D: solids have the fields and sizes of the specification") {
     const auto high = [](const std::string& geometry) {
-      scene::Bounds bounds;
+      load::Bounds bounds;
       for (const glm::vec3& p : mesh_of(geometry).positions) bounds.include(p);
       return bounds.high;
     };

@@ -1,18 +1,17 @@
-#include "scene/x3d_animation.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
 #include "files.h"
+#include "load/x3d/animation.h"
 
 namespace {
 
 using tests::refusal;
 
-scene::Result<scene::LoadedScene> parse(const std::string& inside) {
-  return scene::parse_x3d("<X3D><Scene>\n" + inside + "\n</Scene></X3D>", {"s.x3d", "."});
+base::Result<load::LoadedScene> parse(const std::string& inside) {
+  return load::parse_x3d("<X3D><Scene>\n" + inside + "\n</Scene></X3D>", {"s.x3d", "."});
 }
 
 // A scene whose Transform `T` (with a triangle in it) is driven by `interpolator` (DEF I) on `field`.

@@ -8,10 +8,10 @@ namespace {
 
 using tests::refusal;
 
-scene::Result<scene::LoadedScene> whole(const std::string& bytes) {
-  return scene::parse_x3d(bytes, {"s.x3d", "."});
+base::Result<load::LoadedScene> whole(const std::string& bytes) {
+  return load::parse_x3d(bytes, {"s.x3d", "."});
 }
-scene::Result<scene::LoadedScene> parse(const std::string& inside) {
+base::Result<load::LoadedScene> parse(const std::string& inside) {
   return whole("<X3D><Scene>\n" + inside + "\n</Scene></X3D>");
 }
 std::string shape(const std::string& geometry) { return "<Shape>" + geometry + "</Shape>"; }

@@ -341,7 +341,7 @@ TEST_SUITE("scene") {
     FrameBuilder builder(s, knobs);
     const auto frame = builder.build(0, knobs, ram);
     REQUIRE_FALSE(frame);
-    CHECK(frame.error().exit == scene::Exit::failed);
+    CHECK(frame.error().exit == base::Exit::failed);
     CHECK(frame.error().text.find("bytes of main RAM") != std::string::npos);
   }
 

@@ -80,7 +80,7 @@ struct Shown {
 };
 
 /// Frame 0 of a world through the whole line.
-scene::Result<Shown> show(const scene::Scene& scene) {
+base::Result<Shown> show(const scene::Scene& scene) {
   const scene::Knobs knobs;
   scene::FrameBuilder builder(scene, knobs);
   static ot::MainRam ram(ot::RamSize::mib8);

@@ -9,7 +9,7 @@
 #include <memory>
 #include <vector>
 
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 #include "gpu/gpu.h"
 #include "gte/commands.h"
 #include "ot/ordering_table.h"

@@ -2,12 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include "inspect/depth_order.h"
+#include "exact/depth_order.h"
 #include "inspect/random_triangles.h"
 #include "stability/measure.h"
 
-using inspect::DecisionCounts;
-using inspect::InversePlane;
+using exact::DecisionCounts;
+using exact::InversePlane;
 using stability::Measure;
 
 namespace {
@@ -54,10 +54,10 @@ TEST_SUITE("stability") {
                   0};
     DecisionCounts counts;
     tests::RandomTriangles random(111);
-    constexpr std::array sizes{256, 8 * 256, 1023 * 256, inspect::corner_limit};
+    constexpr std::array sizes{256, 8 * 256, 1023 * 256, exact::corner_limit};
     for (int i = 0; i < 20'000; ++i) {
       const int size = sizes[static_cast<std::size_t>(i) % sizes.size()];
-      inspect::Triangle t;
+      exact::Triangle t;
       for (auto& corner : t) {
         corner.x = random.between(-size, size);
         corner.y = random.between(-size, size);

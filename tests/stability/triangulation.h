@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 
 namespace stability {
 

@@ -7,7 +7,7 @@
 
 #include "gpu/canvas/sample_pattern.h"
 #include "gpu/canvas/stages.h"
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 
 namespace gpu::canvas {
 namespace {

@@ -22,7 +22,7 @@
 #include "gpu/canvas/mip.h"
 #include "gpu/canvas/options.h"
 #include "gpu/canvas/setup.h"
-#include "gpu/coverage.h"
+#include "gpu/columns.h"
 #include "gpu/primitive.h"
 #include "gpu/vram.h"
 

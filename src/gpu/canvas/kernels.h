@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "gpu/canvas/paint.h"
+#include "gpu/canvas/brush.h"
 
 namespace gpu::canvas {
 

@@ -6,7 +6,7 @@
 #include <list>
 #include <vector>
 
-#include "gpu/canvas/paint.h"
+#include "gpu/canvas/brush.h"
 
 namespace gpu::canvas {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "gpu/canvas/coverage.h"
+#include "gpu/canvas/samples.h"
 #include "gpu/depth.h"
 
 namespace gpu::canvas {

@@ -6,7 +6,7 @@
 #include <array>
 #include <vector>
 
-#include "gpu/canvas/coverage.h"
+#include "gpu/canvas/samples.h"
 
 namespace gpu::canvas {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "gpu/canvas/paint.h"
+#include "gpu/canvas/brush.h"
 #include "gpu/primitive.h"
 
 namespace gpu::canvas {

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 
+#include "gpu/canvas/brush.h"
 #include "gpu/canvas/mip.h"
-#include "gpu/canvas/paint.h"
 
 namespace gpu::canvas {
 

@@ -1,0 +1,78 @@
+#pragma once
+// The subcommands of `otter`. To add one: write its file with an `add_...` function, name it here, list it in
+// CMakeLists.txt.
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <functional>
+
+#include "base/result.h"
+
+namespace app {
+
+/// What a subcommand does once the command line is read. The value is the exit status; an Error is printed as
+/// one line on stderr after the program's name, and its exit status used.
+using Action = std::function<base::Result<int>()>;
+
+/// One row of the table. `add` declares the options on `sub` and returns the action that reads them; the
+/// options' storage is owned by the action (a shared_ptr it captures). `examples` is printed under the
+/// options by --help.
+struct Command {
+  const char* name;
+  const char* help;
+  Action (*add)(CLI::App& sub);
+  const char* examples;
+};
+
+Action add_cost(CLI::App& sub);
+Action add_effects(CLI::App& sub);
+Action add_gte_check(CLI::App& sub);
+Action add_list(CLI::App& sub);
+Action add_record(CLI::App& sub);
+Action add_inspect(CLI::App& sub);
+Action add_render(CLI::App& sub);
+Action add_replay(CLI::App& sub);
+Action add_run(CLI::App& sub);
+Action add_walk(CLI::App& sub);
+
+/// In the order in which `otter --help` lists them.
+inline constexpr std::array commands{
+    Command{"run", "open the window", add_run,
+            "  otter run\n"
+            "  otter run cyclic --split\n"
+            "  otter run model.obj --visibility zbuffer --depth 16 --size 640x480\n"},
+    Command{"list", "the built-in scenes and what each shows", add_list,
+            "  otter list --long\n"
+            "  otter list --names\n"},
+    Command{"render", "draw one frame into a PNG, without a window", add_render,
+            "  otter render crates -o crates.png\n"
+            "  otter render cyclic -o cyclic.png --visibility zbuffer --frame 120 --size 640x480\n"
+            "  otter render model.obj -o model.png --buckets 4096 --key farthest\n"
+            "  otter render --all -d pictures\n"},
+    Command{"inspect", "which pixels a painter's order gets wrong, and why", add_inspect,
+            "  otter inspect corridor --frame 30 --heatmap heat.png\n"
+            "  otter inspect cyclic --pixel 160,120\n"
+            "  otter inspect crates --frames 0..99 --buckets 4096 --json report.json --max 200\n"
+            "  otter inspect recorded.psxgpu --frame 2 --visibility zbuffer --depth 16\n"},
+    Command{"replay", "feed a GPU dump to the GPU", add_replay,
+            "  otter replay frame.psxgpu --vram vram.png\n"
+            "  otter replay frame.psxgpu.zst --list --until 20\n"
+            "  otter replay scene.psxgpu --visibility zbuffer --depth 16 -o frame.png\n"},
+    Command{"record", "write a scene as a GPU dump", add_record,
+            "  otter record crates -o crates.psxgpu\n"
+            "  otter record cyclic -o cyclic.psxgpu.zst --frames 60 --annotate\n"},
+    Command{"walk", "check and draw a list in a saved RAM image", add_walk,
+            "  otter walk ram.bin --head 8012FFFC --table 8012F000,1024\n"
+            "  otter walk ram.bin --head 80123000 --vram-in vram.bin --vram vram.png\n"},
+    Command{"cost", "what every setting of accuracy costs in time, and the error it leaves", add_cost,
+            "  otter cost crates --quick --html cost.html\n"
+            "  otter cost --axes texture,antialias corridor --json cost.json\n"},
+    Command{"effects", "the effects a frame calls for, and the price of each", add_effects,
+            "  otter effects crates\n"
+            "  otter effects glass --visibility zbuffer --antialias msaa-4 --json effects.json\n"},
+    Command{"gte-check", "run register vectors through the GTE", add_gte_check,
+            "  otter gte-check vectors.csv\n"
+            "  otter gte-check vectors.csv --all\n"},
+};
+
+}  // namespace app

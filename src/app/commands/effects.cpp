@@ -1,0 +1,57 @@
+// otter effects: which effects a frame calls for, and the price of each.
+
+#include "cost/effects.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "app/commands/open_scene.h"
+#include "app/commands/options.h"
+#include "base/write_file.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string scene, json;
+  std::uint32_t frame = 0;
+  scene::Knobs knobs;
+};
+
+base::Result<int> run_effects(const Options& options) {
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  const auto scene = open_scene(options.scene);
+  if (!scene) return tl::make_unexpected(scene.error());
+  const auto report = cost::find_effects(*scene, options.frame, options.knobs);
+  if (!report) return tl::make_unexpected(report.error());
+  if (!options.json.empty() && options.json != "-") {
+    if (auto written = base::write_file(options.json, cost::to_json(*report)); !written) {
+      return tl::make_unexpected(written.error());
+    }
+  }
+  const auto text = options.json == "-" ? cost::to_json(*report) : cost::to_text(*report);
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    return base::fail("standard output: cannot be written", base::Exit::failed);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_effects(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  sub.add_option("scene", options->scene, "a scene of `otter list`, or a file")
+      ->type_name("SCENE|FILE")
+      ->required();
+  sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [0]")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1'000'000'000));
+  sub.add_option("--json", options->json, "write the report as JSON; - is standard output")
+      ->type_name("FILE");
+  add_knobs(sub, options->knobs);
+  return [options] { return run_effects(*options); };
+}
+
+}  // namespace app

@@ -1,0 +1,372 @@
+// otter inspect: which pixels are wrong, why, and between whom.
+
+#include <cerrno>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/open_scene.h"
+#include "app/commands/options.h"
+#include "app/commands/progress.h"
+#include "app/machine.h"
+#include "base/write_file.h"
+#include "demos/demos.h"
+#include "display/png.h"
+#include "dump/dump.h"
+#include "dump/dump_file.h"
+#include "inspect/history.h"
+#include "inspect/json.h"
+#include "inspect/maps.h"
+#include "inspect/report.h"
+#include "scene/accurate.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string source, frame, frames, pixel, json, heatmap, overdraw, ids, truth, depth_map;
+  std::int64_t max = -1;
+  scene::Knobs knobs;
+
+  [[nodiscard]] bool wants_picture() const {
+    return !heatmap.empty() || !overdraw.empty() || !ids.empty() || !truth.empty() || !depth_map.empty();
+  }
+};
+
+struct FrameRange {
+  std::uint32_t first = 0, last = 0;
+};
+constexpr std::uint32_t highest_number = 1'000'000'000;
+
+// One frame drawn and watched: what the report and the pictures are made from.
+struct Watched {
+  inspect::Report report;
+  std::vector<std::uint16_t> vram;
+};
+
+// Where frames come from: a scene, or a dump.
+class Source {
+ public:
+  virtual ~Source() = default;
+  virtual base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) = 0;
+  [[nodiscard]] virtual FrameRange frames() const = 0;
+};
+
+inspect::Order order_of(const scene::Knobs& knobs) {
+  if (knobs.visibility == scene::Visibility::zbuffer) return inspect::Order::depth;
+  return knobs.visibility == scene::Visibility::bsp ? inspect::Order::exact : inspect::Order::list;
+}
+
+class SceneSource : public Source {
+ public:
+  SceneSource(scene::Scene scene, const scene::Knobs& knobs)
+      : name_(scene.name), knobs_(knobs), machine_(std::move(scene), knobs) {}
+
+  base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
+    if (const auto unwatched = machine_.unwatched_knobs(knobs_); !unwatched.empty()) {
+      return base::fail(
+          "--" + std::string(unwatched[0]->name) +
+          ": truth is judged at the console's own pixels; expected --resolution 1 and an --antialias "
+          "that samples each once (none, fxaa)");
+    }
+    machine_.watch(&trace);
+    const auto stats = machine_.draw(number, knobs_);
+    machine_.watch(nullptr);
+    if (!stats) return tl::make_unexpected(stats.error());
+    Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
+                    machine_.vram()};
+    add_lint(*stats, watched.report);
+    return watched;
+  }
+  [[nodiscard]] FrameRange frames() const override { return {0, highest_number}; }
+
+ private:
+  void add_lint(const scene::FrameStats& stats, inspect::Report& report) const {
+    for (std::size_t reason = 0; reason < scene::drop_reasons; ++reason) {
+      if (stats.dropped[reason] == 0) continue;
+      report.lint.push_back(
+          {"dropped", scene::drop_names[reason],
+           std::to_string(stats.dropped[reason]) + " of " + std::to_string(stats.faces) +
+               " faces were left out before drawing: " + scene::drop_reasons_in_words[reason]});
+    }
+    const auto length = knobs_.visibility == scene::Visibility::sorted
+                            ? scene::sort_keys
+                            : static_cast<std::uint32_t>(knobs_.buckets);
+    const auto& out = stats.out_of_range;
+    for (auto& item : inspect::lint_buckets({out.below, out.at, out.above}, length)) {
+      report.lint.push_back(std::move(item));
+    }
+    if (stats.splits != 0) {
+      report.lint.push_back(
+          {"splits", "", std::to_string(stats.splits) + " cuts were made to find an order"});
+    }
+  }
+
+  std::string name_;
+  scene::Knobs knobs_;
+  Machine machine_;
+};
+
+class DumpSource : public Source {
+ public:
+  DumpSource(std::string name, dump::Dump dump, const scene::Knobs& knobs)
+      : name_(std::move(name)), dump_(std::move(dump)), order_(order_of(knobs)) {
+    gpu_.set_depth(scene::depth_options(knobs));
+  }
+
+  // Frame N of a dump lies between its VSync packets N-1 and N. Frames must be asked for in ascending order.
+  base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
+    play_until(number - 1);
+    gpu_.set_trace(&trace);
+    const auto end = play_until(number);
+    gpu_.set_trace(nullptr);
+    if (end.polygons_without_depth != 0) {
+      return base::fail(name_ + ": " + std::to_string(end.polygons_without_depth) +
+                            " polygons without depth, the first is drawing command " +
+                            std::to_string(end.first_without_depth),
+                        base::Exit::failed);
+    }
+    const auto vram = gpu_.vram().pixels();
+    Watched watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}),
+                    {vram.begin(), vram.end()}};
+    watched.report.lint.push_back(
+        {"dropped", "", "not available: what a program leaves out before drawing is not in its dump"});
+    watched.report.lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
+    watched.report.lint.push_back(
+        {"links", "", "not available: a dump holds no list, only the words it sent"});
+    return watched;
+  }
+  // Without a VSync packet the whole dump is one frame.
+  [[nodiscard]] FrameRange frames() const override {
+    return {1, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(dump_.vsyncs, 1, highest_number))};
+  }
+
+ private:
+  // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are
+  // fewer.
+  gpu::FrameEnd play_until(std::uint64_t vsyncs) {
+    dump::Dump part;
+    part.gpu_version = dump_.gpu_version;
+    while (next_ < dump_.packets.size() && (seen_ < vsyncs || dump_.vsyncs == 0)) {
+      const dump::Packet& packet = dump_.packets[next_++];
+      part.add(packet.type, dump_.payload(packet));
+      if (packet.type == dump::PacketType::vsync) ++seen_;
+      if (vsyncs == 0) break;
+    }
+    return dump::replay(part, gpu_);
+  }
+
+  std::string name_;
+  dump::Dump dump_;
+  inspect::Order order_;
+  gpu::Gpu gpu_;
+  std::size_t next_ = 0;
+  std::uint64_t seen_ = 0;
+};
+
+std::optional<std::uint32_t> number(std::string_view text) {
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || value > highest_number) return std::nullopt;
+  return value;
+}
+
+base::Result<FrameRange> asked_frames(const Options& options, std::uint32_t first) {
+  if (!options.frames.empty()) {
+    if (!options.frame.empty()) return base::fail("--frames: expected no --frame beside it");
+    const auto dots = options.frames.find("..");
+    const auto a = number(std::string_view(options.frames).substr(0, dots));
+    const auto b =
+        dots == std::string::npos ? std::nullopt : number(std::string_view(options.frames).substr(dots + 2));
+    if (!a || !b || *b < *a) return base::fail("--frames: expected A..B with A <= B, got " + options.frames);
+    if (*b != *a && (options.wants_picture() || !options.pixel.empty())) {
+      return base::fail("--frames: a picture or --pixel needs a single frame, got " + options.frames);
+    }
+    return FrameRange{*a, *b};
+  }
+  if (options.frame.empty()) return FrameRange{first, first};
+  const auto only = number(options.frame);
+  if (!only) return base::fail("--frame: expected a number, got " + options.frame);
+  return FrameRange{*only, *only};
+}
+
+base::Result<FrameRange> frames_of(const Options& options, const FrameRange& available) {
+  auto asked = asked_frames(options, available.first);
+  if (asked && (asked->first < available.first || asked->last > available.last)) {
+    const auto missing = asked->first < available.first ? asked->first : asked->last;
+    return base::fail(options.source + ": --frame " + std::to_string(missing) + ": expected " +
+                      std::to_string(available.first) + ".." + std::to_string(available.last) +
+                      ", the frames of this dump");
+  }
+  return asked;
+}
+
+struct Position {
+  int x, y;
+};
+
+base::Result<std::optional<Position>> pixel_of(const Options& options) {
+  if (options.pixel.empty()) return std::nullopt;
+  const auto comma = options.pixel.find(',');
+  const auto x = number(std::string_view(options.pixel).substr(0, comma));
+  const auto y =
+      comma == std::string::npos ? std::nullopt : number(std::string_view(options.pixel).substr(comma + 1));
+  const auto column = x.value_or(1024), row = y.value_or(512);
+  if (column > 1023 || row > 511)
+    return base::fail("--pixel: expected X,Y in the picture, got " + options.pixel);
+  return Position{static_cast<int>(column), static_cast<int>(row)};
+}
+
+// Told by its first bytes, so that any name will do.
+bool is_dump(const std::string& source) {
+  std::error_code ignored;
+  if (demos::find(source) != nullptr || !std::filesystem::is_regular_file(source, ignored)) return false;
+  const auto extension = std::filesystem::path(source).extension();
+  return extension != ".obj" && extension != ".x3d";
+}
+
+base::Result<std::unique_ptr<Source>> open(const Options& options) {
+  if (is_dump(options.source)) {
+    const auto visibility = options.knobs.visibility;
+    if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
+      return base::fail("--visibility: a dump is drawn in its own order; expected ot or zbuffer");
+    }
+    auto dump = dump::read_dump(options.source);
+    if (!dump) return tl::make_unexpected(dump.error());
+    return std::make_unique<DumpSource>(options.source, std::move(*dump), options.knobs);
+  }
+  auto scene = open_scene(options.source);
+  if (!scene) return tl::make_unexpected(scene.error());
+  return std::make_unique<SceneSource>(std::move(*scene), options.knobs);
+}
+
+base::Result<void> write_pictures(const Options& options, const Watched& watched, const gpu::Trace& trace) {
+  const auto& report = watched.report;
+  const auto write = [](const std::string& path, auto&& make) {
+    return path.empty() ? base::Result<void>{} : display::write_png(path, make());
+  };
+  return write(options.heatmap, [&] { return inspect::heatmap(report, watched.vram); })
+      .and_then([&] { return write(options.overdraw, [&] { return inspect::overdraw(report, trace); }); })
+      .and_then([&] { return write(options.ids, [&] { return inspect::ids(report, trace); }); })
+      .and_then([&] {
+        return write(options.truth, [&] { return inspect::truth_image(report, trace, watched.vram); });
+      })
+      .and_then(
+          [&] { return write(options.depth_map, [&] { return inspect::depth_image(report, trace); }); });
+}
+
+// Before anything is printed or written.
+base::Result<void> check_inside(const inspect::Rectangle& picture, Position at) {
+  if (at.x < picture.width && at.y < picture.height) return {};
+  return base::fail("--pixel: expected X,Y inside " + std::to_string(picture.width) + "x" +
+                    std::to_string(picture.height) + ", got " + std::to_string(at.x) + "," +
+                    std::to_string(at.y));
+}
+
+base::Result<void> write_json(const std::string& path, inspect::FramesJson& json) {
+  if (path != "-") return base::write_file(path, [&](std::FILE* file) { json.write(file); });
+  json.write(stdout);
+  return {};
+}
+
+base::Result<int> run(const Options& options) {
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  const auto pixel = pixel_of(options);
+  if (!pixel) return tl::make_unexpected(pixel.error());
+  const auto source = open(options);
+  if (!source) return tl::make_unexpected(source.error());
+  const auto frames = frames_of(options, (*source)->frames());
+  if (!frames) return tl::make_unexpected(frames.error());
+
+  gpu::Trace trace;
+  trace.keep_history = true;
+  inspect::Sums sums;
+  std::optional<inspect::FramesJson> json;
+  if (!options.json.empty()) json.emplace();
+  const bool prints = options.json != "-";
+  const auto wanted = std::uint64_t{frames->last} - frames->first + 1;
+  Progress progress("inspect", wanted);
+  const Interrupt interrupt;
+  for (std::uint32_t n = frames->first; n <= frames->last; ++n) {
+    trace.clear();
+    auto watched = (*source)->frame(n, trace);
+    if (!watched) return tl::make_unexpected(watched.error());
+    if (*pixel) {
+      if (auto inside = check_inside(watched->report.picture, **pixel); !inside)
+        return tl::make_unexpected(inside.error());
+    }
+    sums.add(watched->report);
+    if (json && !json->add(watched->report)) {
+      return base::fail(std::string("--json: a temporary file cannot be written: ") + std::strerror(errno),
+                        base::Exit::failed);
+    }
+    if (auto done = write_pictures(options, *watched, trace); !done) return tl::make_unexpected(done.error());
+    if (prints) std::fputs(inspect::to_text(watched->report).c_str(), stdout);
+    if (*pixel && prints) {
+      for (const auto& line : inspect::pixel_history(watched->report, trace, (*pixel)->x, (*pixel)->y))
+        std::puts(line.c_str());
+    }
+    progress.step();
+    if (interrupt.was_asked()) break;
+  }
+  if (prints && wanted > 1) std::fputs(inspect::to_text(sums).c_str(), stdout);
+  if (json) {
+    if (auto done = write_json(options.json, *json); !done) return tl::make_unexpected(done.error());
+  }
+  if (sums.frames < wanted) {
+    return base::fail("interrupted: the report holds " + std::to_string(sums.frames) + " frames of " +
+                          std::to_string(wanted),
+                      base::Exit::interrupted);
+  }
+  if (options.max >= 0 && sums.wrong_pixels > static_cast<std::uint64_t>(options.max)) {
+    return base::fail("--max " + std::to_string(options.max) + ": " + std::to_string(sums.wrong_pixels) +
+                          " pixels are wrong",
+                      base::Exit::failed);
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_inspect(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  const auto file = [&](const char* name, std::string& path, const char* help) {
+    sub.add_option(name, path, help)->type_name("FILE")->take_last();
+  };
+  sub.add_option("source", options->source, "a scene of `otter list`, an .obj or .x3d file, or a GPU dump")
+      ->type_name("SCENE|DUMP")
+      ->required();
+  sub.add_option("--frame", options->frame,
+                 "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]")
+      ->type_name("N")
+      ->take_last();
+  sub.add_option("--frames", options->frames, "several frames, both ends included")
+      ->type_name("A..B")
+      ->take_last();
+  file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
+  file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
+  file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");
+  file("--ids", options->ids, "PNG: a colour per primitive that is seen");
+  file("--truth", options->truth, "PNG: the picture as it should be");
+  file("--depth-map", options->depth_map, "PNG: 1/z of the true owners");
+  sub.add_option("--pixel", options->pixel, "tell the history of a pixel of the picture")
+      ->type_name("X,Y")
+      ->take_last();
+  sub.add_option("--max", options->max, "exit with 1 if more pixels are wrong")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
+      ->take_last();
+  add_knobs(sub, options->knobs);
+  return [options] { return run(*options); };
+}
+
+}  // namespace app

@@ -1,0 +1,78 @@
+// otter record: a scene into a GPU dump.
+
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "app/commands/commands.h"
+#include "app/commands/open_scene.h"
+#include "app/commands/options.h"
+#include "app/commands/progress.h"
+#include "app/commands/recording.h"
+#include "dump/dump_file.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string scene, output, format = "standard";
+  std::uint32_t frames = 1;
+  bool annotate = false;
+  scene::Knobs knobs;
+};
+
+// A piece of a split polygon is its parent within limits, which packets cannot say.
+void report(const SnapCost& cost) {
+  std::printf("%llu pieces of split polygons were recorded as triangles of their own; ",
+              static_cast<unsigned long long>(cost.pieces));
+  if (cost.pixels == 0) {
+    std::puts("the recording shows what the live frames show");
+    return;
+  }
+  std::printf("%llu pixels differ from the live frames, by %u of 31 at most (most in frame %u: %llu)\n",
+              static_cast<unsigned long long>(cost.pixels), cost.largest, cost.worst_frame,
+              static_cast<unsigned long long>(cost.worst_pixels));
+}
+
+base::Result<int> record_scene(const Options& options) {
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  const auto scene = open_scene(options.scene);
+  if (!scene) return tl::make_unexpected(scene.error());
+  Progress progress("record", options.frames);
+  const auto annotate = options.annotate ? scene::Annotate::always : scene::Annotate::when_needed;
+  const auto recording = record(*scene, options.frames, options.knobs, annotate, [&] { progress.step(); });
+  if (!recording) return tl::make_unexpected(recording.error());
+  const auto& dump = recording->dump;
+  const auto format = options.format == "v1" ? dump::DumpFormat::v1 : dump::DumpFormat::standard;
+  if (auto saved = dump::save_dump(options.output, dump, format); !saved)
+    return tl::make_unexpected(saved.error());
+  std::printf("%s: %s, %u frames, %zu words\n", options.output.c_str(), scene->name.c_str(), options.frames,
+              dump.words.size());
+  if (options.knobs.visibility == scene::Visibility::bsp) report(recording->snapped);
+  return 0;
+}
+
+}  // namespace
+
+Action add_record(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  sub.add_option("scene", options->scene, "a scene of `otter list`, or a file")
+      ->type_name("SCENE|FILE")
+      ->required();
+  sub.add_option("-o,--output", options->output, "the dump to write; packed if its name ends in .zst or .xz")
+      ->type_name("FILE")
+      ->required();
+  sub.add_option("--frames", options->frames, "record frames 0..N-1 [1]")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint32_t{1}, std::uint32_t{1'000'000}));
+  sub.add_option("--format", options->format, "standard: v1r1, aligned; v1: the older form [standard]")
+      ->type_name("standard|v1")
+      ->check(CLI::IsMember({"standard", "v1"}));
+  sub.add_flag("--annotate", options->annotate,
+               "write depths, so that the dump replays through the z-buffer, too");
+  add_knobs(sub, options->knobs);
+  return [options] { return record_scene(*options); };
+}
+
+}  // namespace app

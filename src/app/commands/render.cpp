@@ -1,0 +1,103 @@
+// otter render: a frame into a PNG, without a window.
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "app/commands/commands.h"
+#include "app/commands/open_scene.h"
+#include "app/commands/options.h"
+#include "app/commands/progress.h"
+#include "app/machine.h"
+#include "demos/demos.h"
+#include "display/png.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string scene, output, directory = "out";
+  bool all = false;
+  std::int64_t frame = 0;
+  scene::Knobs knobs;
+};
+
+// Draws one frame, writes it, and says in one line what was drawn.
+base::Result<void> render_one(scene::Scene scene, const Options& options,
+                              const std::filesystem::path& output) {
+  const std::string name = scene.name;
+  Machine machine(std::move(scene), options.knobs);
+  for (const auto& line : machine.report())
+    std::fprintf(stderr, "otter: %s: %s\n", name.c_str(), line.c_str());
+  const auto stats = machine.draw(options.frame, options.knobs);
+  if (!stats) return tl::make_unexpected(stats.error());
+  const auto picture = machine.picture();
+  if (auto written = display::write_png(output, picture); !written) return written;
+  std::printf("%s: %s frame %lld, %dx%d, %u primitives; GTE %.2f ms, OT %.2f ms, raster %.2f ms\n",
+              output.c_str(), name.c_str(), static_cast<long long>(options.frame), picture.width,
+              picture.height, stats->primitives, stats->gte_ms, stats->ot_ms, stats->raster_ms);
+  return {};
+}
+
+base::Result<int> render_all(const Options& options) {
+  std::error_code error;
+  std::filesystem::create_directories(options.directory, error);
+  if (error) {
+    return base::fail("--directory " + options.directory + ": cannot be made: " + error.message(),
+                      base::Exit::failed);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  Progress progress("render", demos::all().size());
+  for (const auto& demo : demos::all()) {
+    const auto output = std::filesystem::path(options.directory) / (std::string(demo.name) + ".png");
+    if (auto done = render_one(demos::make(demo), options, output); !done)
+      return tl::make_unexpected(done.error());
+    progress.step();
+  }
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  std::printf("%zu scenes rendered in %.1f s\n", demos::all().size(), taken.count());
+  return 0;
+}
+
+base::Result<int> render(const Options& options) {
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  if (options.all) {
+    if (!options.scene.empty()) return base::fail("--all: expected no scene beside it, got " + options.scene);
+    if (!options.output.empty()) return base::fail("--all: expected --directory DIR, not --output FILE");
+    return render_all(options);
+  }
+  if (options.scene.empty())
+    return base::fail("expected SCENE or FILE, or --all; the scenes are " + scene_names());
+  if (options.output.empty())
+    return base::fail("--output: expected the PNG file to write, as -o " + options.scene + ".png");
+  auto scene = open_scene(options.scene);
+  if (!scene) return tl::make_unexpected(scene.error());
+  if (auto done = render_one(std::move(*scene), options, options.output); !done) {
+    return tl::make_unexpected(done.error());
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_render(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  sub.add_option("scene", options->scene, "a scene of `otter list`, or an .obj or .x3d file")
+      ->type_name("SCENE|FILE");
+  sub.add_option("-o,--output", options->output, "the PNG file to write")->type_name("FILE");
+  sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [0]")
+      ->type_name("N")
+      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}).description(""))
+      ->take_last();
+  sub.add_flag("--all", options->all, "render every scene of `otter list`");
+  sub.add_option("-d,--directory", options->directory, "with --all: where to write SCENE.png [out]")
+      ->type_name("DIR");
+  add_knobs(sub, options->knobs);
+  return [options] { return render(*options); };
+}
+
+}  // namespace app

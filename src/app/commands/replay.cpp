@@ -1,0 +1,156 @@
+// otter replay: a GPU dump into VRAM.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
+#include "base/write_file.h"
+#include "display/png.h"
+#include "display/scanout.h"
+#include "dump/dump_file.h"
+#include "scene/accurate.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string dump, vram, output, readback;
+  std::optional<std::uint64_t> frame, until;
+  std::uint64_t repeat = 0;
+  bool list = false;
+  scene::Knobs knobs;
+};
+
+base::Result<void> check(const Options& options, const dump::Dump& dump) {
+  if (options.frame && *options.frame > dump.vsyncs) {
+    return base::fail("--frame " + std::to_string(*options.frame) + ": " + options.dump + " has " +
+                      std::to_string(dump.vsyncs) + " VSync packets");
+  }
+  if (options.until && *options.until > dump.drawing_commands) {
+    return base::fail("--until " + std::to_string(*options.until) + ": " + options.dump + " has " +
+                      std::to_string(dump.drawing_commands) + " drawing commands");
+  }
+  return {};
+}
+
+/// The fastest of `rounds` replays, each from the initial state, which is made outside the timed part.
+std::uint64_t best_nanoseconds(const dump::Dump& dump, const dump::ReplayOptions& limits,
+                               const scene::Knobs& knobs, std::uint64_t rounds) {
+  using Clock = std::chrono::steady_clock;
+  auto best = Clock::duration::max();
+  for (std::uint64_t n = 0; n < rounds; ++n) {
+    gpu::Gpu gpu;
+    gpu.set_depth(scene::depth_options(knobs));
+    const auto begin = Clock::now();
+    dump::replay(dump, gpu, limits);
+    best = std::min(best, Clock::now() - begin);
+  }
+  return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(best).count());
+}
+
+base::Result<void> save(const Options& options, const gpu::Gpu& gpu,
+                        const std::vector<std::uint32_t>& readback) {
+  if (!options.vram.empty()) {
+    if (auto written = dump::save_vram(options.vram, gpu.vram()); !written) return written;
+  }
+  if (!options.output.empty()) {
+    const display::Area area = display::area_of(gpu.display());
+    if (area.width <= 0 || area.height <= 0) {
+      return base::fail(options.output + ": the dump leaves an empty display area (" +
+                            std::to_string(area.width) + " x " + std::to_string(area.height) +
+                            " pixels), expected GP1(06h) and GP1(07h) with a range; --vram has the rest",
+                        base::Exit::failed);
+    }
+    const auto picture = display::scan_out(gpu.vram().pixels(), area);
+    if (auto written = display::write_png(options.output, picture); !written) return written;
+  }
+  if (options.readback.empty()) return {};
+  std::vector<std::byte> bytes;
+  for (const auto word : readback) {
+    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
+  }
+  return base::write_file(options.readback, bytes);
+}
+
+void print_summary(const std::string& name, const dump::Dump& dump) {
+  std::printf("%s: %s, %zu packets, %llu VSyncs, %llu drawing commands\n", name.c_str(),
+              dump.format == dump::DumpFormat::v1 ? "v1" : "v1r1", dump.packets.size(),
+              static_cast<unsigned long long>(dump.vsyncs),
+              static_cast<unsigned long long>(dump.drawing_commands));
+}
+
+base::Result<int> replay(const Options& options) {
+  const auto visibility = options.knobs.visibility;
+  if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
+    return base::fail("--visibility: a dump can be drawn by ot, in its own order, or by zbuffer");
+  }
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  auto dump = dump::read_dump(options.dump);
+  if (!dump) return tl::make_unexpected(dump.error());
+  if (auto checked = check(options, *dump); !checked) return tl::make_unexpected(checked.error());
+  if (dump->gpu_version == 3) {
+    std::fprintf(stderr, "otter replay: %s: made for 2 MB of VRAM, drawn with 1 MB\n", options.dump.c_str());
+  }
+
+  dump::ReplayOptions limits{.frame = options.frame, .until = options.until};
+  if (options.list) {
+    dump::list_dump(*dump, limits, [](const std::string& line) { std::puts(line.c_str()); });
+  } else {
+    print_summary(options.dump, *dump);
+  }
+  std::vector<std::uint32_t> readback;
+  gpu::Gpu gpu;
+  gpu.set_depth(scene::depth_options(options.knobs));
+  limits.readback = options.readback.empty() ? nullptr : &readback;
+  const auto end = dump::replay(*dump, gpu, limits);
+  if (end.polygons_without_depth != 0) {
+    return base::fail(
+        options.dump + ": " + std::to_string(end.polygons_without_depth) +
+            " polygons without depth, needed by --visibility zbuffer (record --annotate writes depths)",
+        base::Exit::failed);
+  }
+  if (auto saved = save(options, gpu, readback); !saved) return tl::make_unexpected(saved.error());
+  limits.readback = nullptr;
+  if (options.repeat > 0) {
+    std::printf("ns_per_replay %llu\n", static_cast<unsigned long long>(
+                                            best_nanoseconds(*dump, limits, options.knobs, options.repeat)));
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_replay(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  const auto from_1 = CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40);
+  sub.add_option("dump", options->dump, "a GPU dump (v1r1 or v1), plain or packed as .zst or .xz")
+      ->type_name("DUMP")
+      ->required();
+  sub.add_option("--vram", options->vram, "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords")
+      ->type_name("FILE");
+  sub.add_option("-o,--output", options->output, "write the display area as a PNG")->type_name("FILE");
+  sub.add_option("--frame", options->frame, "stop at the Nth VSync packet, from 1")
+      ->type_name("N")
+      ->check(from_1);
+  sub.add_option("--until", options->until, "stop after the Kth drawing command, from 1")
+      ->type_name("K")
+      ->check(from_1);
+  sub.add_option("--repeat", options->repeat, "replay N times more and print ns_per_replay, the fastest")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
+  sub.add_flag("--list", options->list, "print every command in words");
+  sub.add_option("--readback", options->readback, "write the words that the dump reads back")
+      ->type_name("FILE");
+  add_knobs(sub, options->knobs,
+            {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far"});
+  return [options] { return replay(*options); };
+}
+
+}  // namespace app

@@ -1,0 +1,220 @@
+// otter walk: a list in a saved RAM image, checked and drawn.
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/commands/options.h"
+#include "base/read_file.h"
+#include "dump/dump_file.h"
+#include "gpu/trace.h"
+#include "inspect/lint.h"
+#include "ot/packet.h"
+#include "ot/walker.h"
+#include "scene/accurate.h"
+
+namespace app {
+namespace {
+
+struct Options {
+  std::string image, head, table, vram_in, vram;
+  scene::Knobs knobs;
+};
+
+/// Hexadecimal with or without 0x or h; the segment bits of a pointer are dropped.
+std::optional<std::uint32_t> parse_address(std::string text) {
+  if (text.starts_with("0x") || text.starts_with("0X")) text.erase(0, 2);
+  if (text.ends_with('h') || text.ends_with('H')) text.pop_back();
+  std::uint32_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return ot::tag::Next::get(value);
+}
+
+base::Result<std::uint32_t> address_option(const char* option, const std::string& text) {
+  if (const auto address = parse_address(text)) return *address;
+  return base::fail(std::string(option) + ": expected a hexadecimal address such as 80123000, got '" + text +
+                    "'");
+}
+
+base::Result<ot::MainRam> read_image(const std::string& path) {
+  const auto bytes = base::read_file(path, static_cast<std::uint64_t>(ot::RamSize::mib8));
+  if (!bytes) return tl::make_unexpected(bytes.error());
+  for (const auto size : {ot::RamSize::mib2, ot::RamSize::mib8}) {
+    if (bytes->size() != static_cast<std::size_t>(size)) continue;
+    ot::MainRam ram(size);
+    const auto words = ram.words();
+    for (std::size_t n = 0; n < bytes->size(); ++n) {
+      words[n / 4] |= std::to_integer<std::uint32_t>((*bytes)[n]) << 8 * (n % 4);
+    }
+    return ram;
+  }
+  return base::fail(path + ": expected the 2097152 or 8388608 bytes of main RAM, got " +
+                    std::to_string(bytes->size()));
+}
+
+base::Result<std::optional<inspect::TableRange>> table_option(const std::string& text,
+                                                              const ot::MainRam& ram) {
+  if (text.empty()) return std::nullopt;
+  const auto comma = text.find(',');
+  const auto address = parse_address(text.substr(0, comma));
+  std::uint32_t length = 0;
+  const auto number = comma == std::string::npos ? std::string() : text.substr(comma + 1);
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), length);
+  if (!address || error != std::errc() || end != number.data() + number.size() || length == 0 ||
+      *address % 4 != 0) {
+    return base::fail("--table: expected ADDR,N such as 80123000,1024, got '" + text + "'");
+  }
+  if (*address >= ram.size_bytes() || length > (ram.size_bytes() - *address) / 4) {
+    return base::fail("--table: " + text + " does not lie within the " + std::to_string(ram.size_bytes()) +
+                      " bytes of RAM");
+  }
+  return inspect::TableRange{*address, length};
+}
+
+/// How the drawing packets lie in the buckets, in list order.
+struct Buckets {
+  std::vector<std::uint32_t> packets;
+  std::vector<std::uint32_t> visited;  // entries in the order in which the list passes them
+
+  void print() const {
+    const auto used = std::ranges::count_if(packets, [](auto n) { return n > 0; });
+    const auto tied = std::ranges::count_if(packets, [](auto n) { return n > 1; });
+    const auto fullest = std::ranges::max_element(packets);
+    std::printf("buckets: %zu, used %lld, with more than one packet %lld, fullest %lld with %u packets\n",
+                packets.size(), static_cast<long long>(used), static_cast<long long>(tied),
+                static_cast<long long>(fullest - packets.begin()), *fullest);
+    const auto rows = std::min<std::size_t>(packets.size(), 16);
+    std::vector<std::uint64_t> sums(rows);
+    for (std::size_t b = 0; b < packets.size(); ++b) sums[b * rows / packets.size()] += packets[b];
+    const auto most = std::max<std::uint64_t>(1, *std::ranges::max_element(sums));
+    for (std::size_t r = 0; r < rows; ++r) {
+      const auto first = (r * packets.size() + rows - 1) / rows,
+                 next = ((r + 1) * packets.size() + rows - 1) / rows;
+      std::printf("  %6zu..%-6zu %7llu %s\n", first, next - 1, static_cast<unsigned long long>(sums[r]),
+                  std::string(static_cast<std::size_t>(sums[r] * 40 / most), '#').c_str());
+    }
+  }
+
+  /// A reversed table is passed from its last entry to its first, a forward one the other way; anything else
+  /// draws buckets out of their order.
+  [[nodiscard]] std::optional<inspect::LintItem> order() const {
+    const bool forward = visited.size() > 1 && visited[1] > visited[0];
+    for (std::size_t n = 1; n < visited.size(); ++n) {
+      if ((visited[n] > visited[n - 1]) == forward) continue;
+      return inspect::LintItem{
+          "unsorted", "bucket " + std::to_string(visited[n]),
+          "drawn after bucket " + std::to_string(visited[n - 1]) + ", against the order of the table"};
+    }
+    return std::nullopt;
+  }
+};
+
+void print_lint(const std::vector<inspect::LintItem>& items) {
+  for (const auto& item : items) {
+    std::printf("lint: %s %s: %s\n", item.kind.c_str(), item.at.c_str(), item.text.c_str());
+  }
+}
+
+/// Draws a list that is known to be good. There is no drawing area before the first
+/// list sets one: all of VRAM.
+gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head,
+                   const std::optional<inspect::TableRange>& table, gpu::Gpu& gpu, gpu::Trace& trace,
+                   Buckets& buckets) {
+  std::array<std::uint32_t, 2> area{};
+  ot::encode(ot::DrawArea{}, area);
+  gpu.gp0(area);
+  gpu.set_trace(&trace);
+  gpu.begin_frame();
+  if (table) buckets.packets.resize(table->length);
+  ot::walk(ram, head, [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
+    const auto at = tag & (ram.size_bytes() - 4);
+    if (table && at >= table->address && (at - table->address) / 4 < table->length) {
+      trace.bucket = (at - table->address) / 4;
+      buckets.visited.push_back(trace.bucket);
+    }
+    const auto draws = trace.draws.size();
+    gpu.gp0(payload);
+    if (trace.draws.size() > draws && trace.bucket < buckets.packets.size()) ++buckets.packets[trace.bucket];
+  });
+  const auto end = gpu.end_frame();
+  gpu.set_trace(nullptr);
+  return end;
+}
+
+base::Result<int> walk(const Options& options) {
+  const auto visibility = options.knobs.visibility;
+  if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
+    return base::fail("--visibility: a list can be drawn by ot, in its own order, or by zbuffer");
+  }
+  if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  const auto ram = read_image(options.image);
+  if (!ram) return tl::make_unexpected(ram.error());
+  const auto head = address_option("--head", options.head);
+  if (!head) return tl::make_unexpected(head.error());
+  const auto table = table_option(options.table, *ram);
+  if (!table) return tl::make_unexpected(table.error());
+  gpu::Gpu gpu;
+  if (!options.vram_in.empty()) {
+    if (auto loaded = dump::load_vram(options.vram_in, gpu.vram()); !loaded)
+      return tl::make_unexpected(loaded.error());
+  }
+
+  auto lint = inspect::lint_list(*ram, *head, *table);
+  const auto walked = ot::validate(*ram, *head);
+  std::printf("%s: %u tags, %u words\n", options.image.c_str(), walked.nodes, walked.words);
+  if (!walked) {
+    print_lint(lint);
+    return base::fail(options.image + ": " + walked.message());
+  }
+  gpu.set_depth(scene::depth_options(options.knobs));
+  gpu::Trace trace;
+  trace.keep_history = true;
+  Buckets buckets;
+  const auto end = draw(*ram, *head, *table, gpu, trace, buckets);
+  std::printf("drawing commands: %zu\n", trace.draws.size());
+  if (*table) buckets.print();
+  if (const auto unsorted = buckets.order()) lint.push_back(*unsorted);
+  std::ranges::copy(inspect::lint_draws(trace), std::back_inserter(lint));
+  print_lint(lint);
+  if (end.polygons_without_depth != 0) {
+    return base::fail(options.image + ": " + std::to_string(end.polygons_without_depth) +
+                          " polygons without depth, needed by --visibility zbuffer",
+                      base::Exit::failed);
+  }
+  if (!options.vram.empty()) {
+    if (auto saved = dump::save_vram(options.vram, gpu.vram()); !saved)
+      return tl::make_unexpected(saved.error());
+  }
+  return 0;
+}
+
+}  // namespace
+
+Action add_walk(CLI::App& sub) {
+  const auto options = std::make_shared<Options>();
+  sub.add_option("image", options->image, "2 or 8 MiB of main RAM as an emulator saves it")
+      ->type_name("RAM.bin")
+      ->required();
+  sub.add_option("--head", options->head, "the first tag of the list, hexadecimal")
+      ->type_name("ADDR")
+      ->required();
+  sub.add_option("--table", options->table, "the ordering table: address of entry 0, number of entries")
+      ->type_name("ADDR,N");
+  sub.add_option("--vram-in", options->vram_in, "1 MiB of VRAM to draw into [black]")->type_name("FILE");
+  sub.add_option("--vram", options->vram, "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords")
+      ->type_name("FILE");
+  add_knobs(sub, options->knobs,
+            {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far"});
+  return [options] { return walk(*options); };
+}
+
+}  // namespace app

@@ -1,0 +1,36 @@
+#pragma once
+// From SDL's events to what they ask of the window's state.
+
+#include <vector>
+
+#include "app/window/held_keys.h"
+#include "app/window/layout.h"
+#include "app/window/sdl.h"
+#include "app/window/window_state.h"
+
+namespace app {
+
+class Machine;
+
+class Input {
+ public:
+  /// Keys, buttons, closing, and the mouse where ImGui does not want it. `picture`: where the picture is.
+  void take(const SDL_Event& event, double now, Rect picture, WindowState& state);
+
+  /// Moves the camera by what was held for `passed` seconds up to `now`. `machine`
+  /// may be null: no flying then.
+  void move_camera(double now, double passed, const Machine* machine, WindowState& state) const;
+
+ private:
+  void take_key(const SDL_KeyboardEvent& key, double now, WindowState& state);
+  void take_drag(const SDL_MouseMotionEvent& motion, Rect picture, WindowState& state);
+  void take_press(const SDL_MouseButtonEvent& button, Rect picture, const WindowState& state);
+  [[nodiscard]] Motion controller_motion() const;
+
+  enum class Drag { none, divider, orbit, look };
+  Drag drag_ = Drag::none;
+  HeldKeys held_;
+  std::vector<Owned<SDL_GameController>> controllers_;
+};
+
+}  // namespace app

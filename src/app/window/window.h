@@ -1,0 +1,33 @@
+#pragma once
+// The window of `otter run`.
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/window/window_state.h"
+#include "base/result.h"
+#include "scene/world.h"
+
+namespace app {
+
+/// A scene that the window can show.
+struct WindowScene {
+  std::string name;  ///< as on the command line
+  std::function<base::Result<scene::Scene>()> make;
+};
+
+struct WindowOptions {
+  std::vector<WindowScene> scenes;  ///< at least one
+  WindowState first;                ///< what is shown at first
+  int scale = 3;                    ///< screen pixels a picture pixel, until the user resizes the window
+  std::optional<int> frames;        ///< quit after so many
+  std::string screenshot;           ///< write the last frame of the window there; empty: do not
+};
+
+/// Opens the window and returns when it is closed. Error: no display, or the first
+/// scene cannot be read (exit 2).
+base::Result<int> run_window(const WindowOptions& options);
+
+}  // namespace app

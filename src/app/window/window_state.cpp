@@ -1,0 +1,231 @@
+#include "app/window/window_state.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace app {
+namespace {
+
+constexpr std::array table{
+    Binding{KeyAction::switch_visibility, "Tab", "", "a",
+            "switch between the ordering table and the z-buffer"},
+    Binding{KeyAction::split, "V", "", "b", "split screen: both, with a divider to drag"},
+    Binding{KeyAction::differences, "D", "", "x", "show the pixels on which the two differ"},
+    Binding{KeyAction::next_visibility, "M", "", "", "next mode: ot, sorted, bsp, zbuffer"},
+    Binding{KeyAction::fewer_buckets, "-", "Keypad -", "dpdown", "half as many buckets"},
+    Binding{KeyAction::more_buckets, "=", "Keypad +", "dpup", "twice as many buckets"},
+    Binding{KeyAction::next_key, "Y", "", "", "sort by average, nearest or farthest vertex"},
+    Binding{KeyAction::next_depth, "Z", "", "", "z-buffer of 16, 24, 32 bits or float"},
+    Binding{KeyAction::pause, "Space", "", "y", "pause"},
+    Binding{KeyAction::next_frame, "N", "", "dpright", "pause, and one frame forward"},
+    Binding{KeyAction::previous_frame, "B", "", "dpleft", "pause, and one frame back"},
+    Binding{KeyAction::next_pace, "P", "", "", "pace: vsync, 60 Hz, 50 Hz"},
+    Binding{KeyAction::camera_home, "Home", "", "rightstick", "camera back to where the scene has it"},
+    Binding{KeyAction::next_scene, "PageDown", "", "rightshoulder", "next scene"},
+    Binding{KeyAction::previous_scene, "PageUp", "", "leftshoulder", "previous scene"},
+    Binding{KeyAction::help, "F1", "H", "start", "this help"},
+    Binding{KeyAction::knobs, "F2", "K", "guide", "knobs: every approximation, live"},
+    Binding{KeyAction::vram, "F3", "", "", "VRAM, live"},
+    Binding{KeyAction::inspect, "F4", "I", "", "inspect: who drew a pixel, the first K draws alone"},
+    Binding{KeyAction::next_map, "E", "", "",
+            "inspect: next map of errors, overdraw, who drew it, truth, depth"},
+    Binding{KeyAction::cost, "C", "", "", "cost: ms with each knob set otherwise, live"},
+    Binding{KeyAction::fullscreen, "F11", "", "", "full screen"},
+    Binding{KeyAction::screenshot, "F12", "", "", "screenshot into the current folder"},
+    Binding{KeyAction::quit, "Escape", "Q", "back", "quit"},
+};
+
+constexpr std::array held{
+    Gesture{"1 .. 9", "that scene"},
+    Gesture{"arrows, left drag, left stick", "orbit round the scene"},
+    Gesture{"W A S D R F (hold), triggers", "fly: forward, left, back, right, up, down"},
+    Gesture{"right drag, right stick", "look round"},
+    Gesture{"mouse wheel", "nearer, farther"},
+};
+
+template <class E>
+void step(E& value, int count) {
+  value = static_cast<E>((static_cast<int>(value) + 1) % count);
+}
+
+void toggle(bool& flag) { flag = !flag; }
+
+void pause_at(WindowState& state, std::int64_t frame) {
+  state.paused = true;
+  state.late = 0;
+  state.frame = std::max<std::int64_t>(frame, 0);
+}
+
+void show_scene(WindowState& state, int scene) {
+  if (scene < 0 || scene >= state.scenes || scene == state.scene) return;
+  state.scene = scene;
+  state.frame = 0;
+  state.late = 0;
+  state.camera = {};
+}
+
+// Only powers of two, whatever the command line began with.
+int next_power(int buckets, bool up) {
+  int power = 1;
+  while (power * 2 <= buckets) power *= 2;
+  if (up) return std::min(power * 2, 65536);
+  return std::max(power == buckets ? power / 2 : power, 1);
+}
+
+}  // namespace
+
+std::span<const Binding> bindings() { return table; }
+std::span<const Gesture> gestures() { return held; }
+
+std::optional<Asked> asked_by_key(std::string_view key) {
+  if (key.size() == 1 && key[0] >= '1' && key[0] <= '9') return Asked{KeyAction::select_scene, key[0] - '1'};
+  for (const auto& row : table) {
+    if (!key.empty() && (row.key == key || row.other_key == key)) return Asked{row.action};
+  }
+  return std::nullopt;
+}
+
+std::optional<Asked> asked_by_button(std::string_view button) {
+  for (const auto& row : table) {
+    if (!button.empty() && row.button == button) return Asked{row.action};
+  }
+  return std::nullopt;
+}
+
+std::string key_help() {
+  std::string text = "Keys:\n";
+  const auto line = [&text](std::string keys, std::string_view does) {
+    keys.resize(std::max<std::size_t>(keys.size() + 1, 32), ' ');
+    text.append("  ").append(keys).append(does).append("\n");
+  };
+  for (const auto& row : table) {
+    std::string keys(row.key);
+    if (!row.other_key.empty()) keys.append(", ").append(row.other_key);
+    line(keys, row.does);
+  }
+  for (const auto& gesture : held) line(std::string(gesture.how), gesture.does);
+  return text;
+}
+
+scene::Knobs WindowState::other_knobs() const {
+  auto changed = knobs;
+  changed.visibility = other;
+  return changed;
+}
+
+void set_visibility(WindowState& state, scene::Visibility visibility) {
+  state.knobs.visibility = visibility;
+  if (state.other != visibility) return;
+  state.other = visibility == scene::Visibility::zbuffer ? scene::Visibility::ot : scene::Visibility::zbuffer;
+}
+
+void handle(WindowState& state, Asked asked) {
+  switch (asked.action) {
+    case KeyAction::switch_visibility:
+      std::swap(state.knobs.visibility, state.other);
+      break;
+    case KeyAction::next_visibility: {
+      auto next = state.knobs.visibility;
+      step(next, 4);
+      set_visibility(state, next);
+      break;
+    }
+    case KeyAction::split:
+      toggle(state.split);
+      break;
+    case KeyAction::differences:
+      toggle(state.differences);
+      break;
+    case KeyAction::fewer_buckets:
+      state.knobs.buckets = next_power(state.knobs.buckets, false);
+      break;
+    case KeyAction::more_buckets:
+      state.knobs.buckets = next_power(state.knobs.buckets, true);
+      break;
+    case KeyAction::next_key:
+      step(state.knobs.key, 3);
+      break;
+    case KeyAction::next_depth:
+      step(state.knobs.depth, 4);
+      break;
+    case KeyAction::pause:
+      toggle(state.paused);
+      break;
+    case KeyAction::next_frame:
+      pause_at(state, state.frame + 1);
+      break;
+    case KeyAction::previous_frame:
+      pause_at(state, state.frame - 1);
+      break;
+    case KeyAction::next_pace:
+      step(state.pace, 3);
+      break;
+    case KeyAction::camera_home:
+      state.camera = {};
+      break;
+    case KeyAction::select_scene:
+      show_scene(state, asked.argument);
+      break;
+    case KeyAction::next_scene:
+      show_scene(state, (state.scene + 1) % state.scenes);
+      break;
+    case KeyAction::previous_scene:
+      show_scene(state, (state.scene + state.scenes - 1) % state.scenes);
+      break;
+    case KeyAction::help:
+      toggle(state.help);
+      break;
+    case KeyAction::knobs:
+      toggle(state.panel);
+      break;
+    case KeyAction::vram:
+      toggle(state.vram);
+      break;
+    case KeyAction::inspect:
+      toggle(state.inspect);
+      state.map = Map::none;
+      state.first_draws = -1;
+      break;
+    case KeyAction::next_map:
+      state.inspect = true;
+      step(state.map, static_cast<int>(map_names.size()));
+      break;
+    case KeyAction::cost:
+      toggle(state.cost);
+      break;
+    case KeyAction::fullscreen:
+      toggle(state.fullscreen);
+      break;
+    case KeyAction::screenshot:
+      state.screenshot = true;
+      break;
+    case KeyAction::quit:
+      state.quit = true;
+      break;
+  }
+}
+
+void let_pass(WindowState& state, double seconds) {
+  if (state.paused) return;
+  constexpr double frames_per_second = 60;
+  double frames = 0;
+  switch (state.pace) {
+    case Pace::vsync:
+      frames = std::clamp(seconds, 0.0, 0.1) * frames_per_second;
+      break;
+    case Pace::hz60:
+      frames = 1;
+      break;
+    case Pace::hz50:
+      frames = 1.2;
+      break;
+  }
+  const double due = state.late * frames_per_second + frames;
+  const double whole = std::floor(due + 1e-9);
+  state.frame += static_cast<std::int64_t>(whole);
+  state.late = std::max(due - whole, 0.0) / frames_per_second;
+}
+
+}  // namespace app

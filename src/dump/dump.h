@@ -1,0 +1,84 @@
+#pragma once
+// GPU dumps: everything a program sent to the two ports of the GPU, in packets.
+// Read, checked, replayed, written.
+//   [ps1dev/standards, GPUDUMP.md, revision v1r1]
+// The older form that emulators wrote has a 14-byte magic, so that its packets lie unaligned, and counts its
+// GPU versions from 0.
+//
+// Not modelled: the time stamps of VSync packets, the second megabyte of VRAM (GPU version 3).
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "dump/parsed.h"
+#include "gpu/gpu.h"
+
+namespace dump {
+
+enum class DumpFormat : std::uint8_t { standard, v1 };
+
+/// The first byte of a packet. Others may come and are skipped.
+enum class PacketType : std::uint8_t {
+  port0 = 0x00,        ///< words written to GP0; commands may be cut by packets
+  port1 = 0x01,        ///< words written to GP1
+  vsync = 0x02,        ///< 0 to 2 words of time stamp
+  discard = 0x03,      ///< 1 word: so many words are read from GPUREAD and thrown away
+  readback = 0x04,     ///< 1 word: so many words are read from GPUREAD and kept
+  trace_begin = 0x05,  ///< what came before was made up to restore the state
+  gpu_version = 0x06,  ///< 1 word
+  game_id = 0x10,
+  video_format = 0x11,
+  comment = 0x12,
+};
+
+struct Packet {
+  PacketType type = PacketType::port0;
+  std::uint64_t offset = 0;  ///< byte of the unpacked file where the packet begins; 0 when not read from one
+  std::size_t first = 0, count = 0;  ///< its words in Dump::words
+};
+
+struct Dump {
+  DumpFormat format = DumpFormat::standard;
+  std::vector<Packet> packets;
+  std::vector<std::uint32_t> words;  ///< payloads one behind the other
+  std::uint32_t gpu_version = 2;     ///< 1: the first chip; 2: the later one; 3: that with 2 MB of VRAM
+  std::uint64_t vsyncs = 0;
+  std::uint64_t drawing_commands = 0;  ///< polygon, line or polyline, rectangle, fill, copy, upload
+
+  [[nodiscard]] std::span<const std::uint32_t> payload(const Packet& p) const {
+    return std::span(words).subspan(p.first, p.count);
+  }
+
+  /// Appends a packet, or several when port data is longer than one can be (2^24 - 1 words).
+  void add(PacketType type, std::span<const std::uint32_t> payload = {});
+  void add_text(PacketType type, std::string_view text);
+};
+
+/// GP1(00h) and GP1(01h) abort the open GP0 command. Codes 40h-FFh mirror 00h-3Fh.   [psx-spx, GP1]
+constexpr bool aborts_command(std::uint32_t gp1_word) { return (gp1_word >> 24 & 0x3e) == 0; }
+
+/// Reads a plain dump (unpack() first) and checks it: every packet whole, every command complete at the end,
+/// read counts within VRAM. Counts VSyncs and drawing commands. Never reads beyond `bytes`, and needs memory
+/// in proportion to it alone.
+Parsed<Dump> parse_dump(std::span<const std::byte> bytes);
+
+/// The file that parse_dump reads back to the same packets.
+std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format);
+
+struct ReplayOptions {
+  std::optional<std::uint64_t> frame{};            ///< stop at this VSync packet, from 1
+  std::optional<std::uint64_t> until{};            ///< stop after this drawing command, from 1
+  std::vector<std::uint32_t>* readback = nullptr;  ///< words of readback packets are appended
+};
+
+/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). In
+/// z-buffer mode a frame lasts from VSync to VSync, or to where the replay stops. Returns the sum of what
+/// end_frame told.
+gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options = {});
+
+}  // namespace dump

@@ -1,0 +1,186 @@
+#include "dump/dump_file.h"
+
+#include <cctype>
+#include <cstdio>
+#include <vector>
+
+#include "base/read_file.h"
+#include "base/write_file.h"
+#include "display/png.h"
+#include "display/scanout.h"
+#include "dump/compression.h"
+#include "ot/command_stream.h"
+#include "ot/describe.h"
+
+namespace dump {
+namespace {
+
+std::string lower_extension(const std::filesystem::path& path) {
+  auto text = path.extension().string();
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+dump::Compression compression_by_name(const std::filesystem::path& path) {
+  const auto extension = lower_extension(path);
+  if (extension == ".zst") return dump::Compression::zstd;
+  return extension == ".xz" ? dump::Compression::xz : dump::Compression::none;
+}
+
+std::string gp1_text(std::uint32_t word) {
+  switch (word >> 24 & 0x3f) {
+    case 0x00:
+      return "reset";
+    case 0x01:
+      return "clear FIFO";
+    case 0x02:
+      return "acknowledge interrupt";
+    case 0x03:
+      return (word & 1) != 0 ? "display off" : "display on";
+    case 0x04:
+      return "DMA direction " + std::to_string(word & 3);
+    case 0x05:
+      return "display from " + std::to_string(word & 0x3ff) + "," + std::to_string(word >> 10 & 0x1ff);
+    case 0x06:
+      return "horizontal range " + std::to_string(word & 0xfff) + ".." + std::to_string(word >> 12 & 0xfff);
+    case 0x07:
+      return "vertical range " + std::to_string(word & 0x3ff) + ".." + std::to_string(word >> 10 & 0x3ff);
+    case 0x08: {
+      static constexpr int widths[] = {256, 320, 512, 640};
+      std::string text =
+          "display mode " + std::to_string((word & 0x40) != 0 ? 368 : widths[word & 3]) + " wide";
+      if ((word & 0x04) != 0) text += ", 480 lines";
+      if ((word & 0x08) != 0) text += ", PAL";
+      if ((word & 0x10) != 0) text += ", 24 bit";
+      if ((word & 0x20) != 0) text += ", interlaced";
+      return text;
+    }
+    case 0x09:
+      return (word & 1) != 0 ? "allow textures off" : "forbid textures off";
+    default:
+      return (word >> 24 & 0x30) == 0x10 ? "read register " + std::to_string(word & 15) : "unknown, nothing";
+  }
+}
+
+std::string packet_text(const dump::Dump& dump, const dump::Packet& packet, std::uint64_t vsyncs) {
+  const auto payload = dump.payload(packet);
+  switch (packet.type) {
+    case dump::PacketType::vsync:
+      return "vsync " + std::to_string(vsyncs);
+    case dump::PacketType::discard:
+      return "discard " + std::to_string(payload[0]) + " words";
+    case dump::PacketType::readback:
+      return "read back " + std::to_string(payload[0]) + " words";
+    case dump::PacketType::trace_begin:
+      return "trace begins";
+    case dump::PacketType::gpu_version:
+      return "GPU version " + std::to_string(dump.gpu_version);
+    case dump::PacketType::game_id:
+    case dump::PacketType::video_format:
+    case dump::PacketType::comment: {
+      std::string text;
+      for (const auto word : payload) {
+        for (int shift = 0; shift < 32; shift += 8) {
+          const auto c = static_cast<char>(word >> shift & 0xff);
+          if (c != '\0') text += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
+        }
+      }
+      return "text: " + text;
+    }
+    default:
+      return std::to_string(payload.size()) + " words of unknown type, skipped";
+  }
+}
+
+std::string line_of(std::uint64_t offset, const char* port, const std::string& draw, std::uint32_t code,
+                    const std::string& text) {
+  char head[64];
+  std::snprintf(head, sizeof head, "%9llu %-4s %7s %02X  ", static_cast<unsigned long long>(offset), port,
+                draw.c_str(), static_cast<unsigned>(code));
+  return head + text;
+}
+
+}  // namespace
+
+base::Result<dump::Dump> read_dump(const std::filesystem::path& path) {
+  const auto file = base::read_file(path, dump::max_unpacked_bytes);
+  if (!file) return tl::make_unexpected(file.error());
+  const auto fail = [&](std::uint64_t offset, const char* where, const std::string& text) {
+    return base::fail(path.string() + ": byte " + std::to_string(offset) + where + ": " + text);
+  };
+  if (dump::compression_of(*file) == dump::Compression::none) {
+    auto dump = dump::parse_dump(*file);
+    if (!dump) return fail(dump.offset, "", dump.message);
+    return std::move(*dump);
+  }
+  auto plain = dump::unpack(*file);
+  if (!plain) return fail(plain.offset, "", plain.message);
+  auto dump = dump::parse_dump(*plain);
+  if (!dump) return fail(dump.offset, " of the unpacked dump", dump.message);
+  return std::move(*dump);
+}
+
+base::Result<void> save_dump(const std::filesystem::path& path, const dump::Dump& dump,
+                             dump::DumpFormat format) {
+  return base::write_file(path, dump::pack(dump::write_dump(dump, format), compression_by_name(path)));
+}
+
+base::Result<void> save_vram(const std::filesystem::path& path, const gpu::Vram& vram) {
+  if (lower_extension(path) == ".png") return display::write_png(path, display::scan_out_all(vram.pixels()));
+  std::vector<std::byte> bytes;
+  bytes.reserve(2 * gpu::Vram::size);
+  for (const std::uint16_t pixel : vram.pixels()) {
+    bytes.push_back(static_cast<std::byte>(pixel & 0xff));
+    bytes.push_back(static_cast<std::byte>(pixel >> 8));
+  }
+  return base::write_file(path, bytes);
+}
+
+base::Result<void> load_vram(const std::filesystem::path& path, gpu::Vram& vram) {
+  const auto pixels = vram.pixels();
+  const auto file = base::read_file(path, 2 * pixels.size());
+  if (!file) return tl::make_unexpected(file.error());
+  if (file->size() != 2 * pixels.size()) {
+    return base::fail(path.string() + ": expected " + std::to_string(2 * pixels.size()) +
+                      " bytes of VRAM, got " + std::to_string(file->size()));
+  }
+  for (std::size_t n = 0; n < pixels.size(); ++n) {
+    pixels[n] = static_cast<std::uint16_t>(std::to_integer<unsigned>((*file)[2 * n]) |
+                                           std::to_integer<unsigned>((*file)[2 * n + 1]) << 8);
+  }
+  return {};
+}
+
+void list_dump(const dump::Dump& dump, const dump::ReplayOptions& options,
+               const std::function<void(const std::string&)>& line) {
+  ot::CommandStream stream;
+  std::uint64_t draws = 0, vsyncs = 0, begin = 0;
+  for (const auto& packet : dump.packets) {
+    const auto payload = dump.payload(packet);
+    if (packet.type == dump::PacketType::port0) {
+      for (std::size_t n = 0; n < payload.size(); ++n) {
+        n += stream.skip_pixels(payload.size() - n);
+        if (n == payload.size()) break;
+        if (!stream.is_open()) begin = packet.offset + 4 + 4 * n;
+        if (!stream.take(payload[n])) continue;
+        const bool draws_now = ot::gp0::is_drawing(stream.command());
+        if (draws_now) ++draws;
+        line(line_of(begin, "GP0", draws_now ? std::string("#").append(std::to_string(draws)) : "-",
+                     stream.words()[0] >> 24, ot::describe(stream.words(), stream.length())));
+        if (draws_now && options.until && draws == *options.until) return;
+      }
+    } else if (packet.type == dump::PacketType::port1) {
+      for (std::size_t n = 0; n < payload.size(); ++n) {
+        line(line_of(packet.offset + 4 + 4 * n, "GP1", "-", payload[n] >> 24, gp1_text(payload[n])));
+        if (dump::aborts_command(payload[n])) stream.abort();
+      }
+    } else {
+      if (packet.type == dump::PacketType::vsync) ++vsyncs;
+      line(line_of(packet.offset, "-", "-", static_cast<std::uint32_t>(packet.type),
+                   packet_text(dump, packet, vsyncs)));
+      if (options.frame && vsyncs == *options.frame) return;
+    }
+  }
+}
+
+}  // namespace dump

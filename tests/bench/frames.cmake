@@ -1,1 +1,0 @@
-otter_bench(frames LIBRARIES demos SOURCES frames.cpp)

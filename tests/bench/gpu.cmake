@@ -1,3 +1,0 @@
-otter_bench(gpu
-  LIBRARIES gpu
-  SOURCES gpu.cpp)

@@ -1,1 +1,0 @@
-otter_bench(inspect LIBRARIES inspect SOURCES inspect.cpp)

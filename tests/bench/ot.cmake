@@ -1,1 +1,0 @@
-otter_bench(ot LIBRARIES ot SOURCES ot.cpp)
