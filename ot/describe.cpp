@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstdio>
 
+#include "ot/gp1.h"
 #include "ot/packet.h"
 
 namespace ot {
@@ -176,6 +177,55 @@ std::string describe(Words w, std::uint64_t length) {
       return annotation(w[0]);
   }
   return {};
+}
+
+std::string describe_control(std::uint32_t word) {
+  using gp1::Command;
+  const auto pair = [](const char* name, std::uint32_t first, const char* between, std::uint32_t second) {
+    return format("%s %u%s%u", name, static_cast<unsigned>(first), between, static_cast<unsigned>(second));
+  };
+  switch (gp1::command_of(word)) {
+    case Command::reset:
+      return "reset";
+    case Command::clear_fifo:
+      return "clear FIFO";
+    case Command::acknowledge_irq:
+      return "acknowledge interrupt";
+    case Command::display_off:
+      return gp1::display_off::IsOff::get(word) != 0 ? "display off" : "display on";
+    case Command::dma_direction:
+      return format("DMA direction %u", static_cast<unsigned>(gp1::dma_direction::Direction::get(word)));
+    case Command::display_start: {
+      using namespace gp1::display_start;
+      return pair("display from", X::get(word), ",", Y::get(word));
+    }
+    case Command::horizontal_range: {
+      using namespace gp1::horizontal_range;
+      return pair("horizontal range", X1::get(word), "..", X2::get(word));
+    }
+    case Command::vertical_range: {
+      using namespace gp1::vertical_range;
+      return pair("vertical range", Y1::get(word), "..", Y2::get(word));
+    }
+    case Command::display_mode: {
+      using namespace gp1::display_mode;
+      auto out = format("display mode %d wide", width(word));
+      if (Is480Lines::get(word) != 0) out += ", 480 lines";
+      if (IsPal::get(word) != 0) out += ", PAL";
+      if (Is24Bit::get(word) != 0) out += ", 24 bit";
+      if (IsInterlaced::get(word) != 0) out += ", interlaced";
+      return out;
+    }
+    case Command::allow_texture_disable: {
+      using namespace gp1::allow_texture_disable;
+      return IsAllowed::get(word) != 0 ? "allow textures off" : "forbid textures off";
+    }
+    case Command::read_register:
+      return format("read register %u", static_cast<unsigned>(gp1::read_register::Number::get(word)));
+    case Command::unknown:
+      break;
+  }
+  return "unknown, nothing";
 }
 
 }  // namespace ot

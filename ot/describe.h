@@ -1,5 +1,5 @@
 #pragma once
-// A GP0 command in words, for listings.
+// Commands of both GPU ports in words, for listings.
 
 #include <cstdint>
 #include <span>
@@ -12,5 +12,8 @@ namespace ot {
 /// vertices of a long polyline that are not among `words` are counted, not shown). Numbers are decimal;
 /// colours, pages and CLUTs are hexadecimal.
 std::string describe(std::span<const std::uint32_t> words, std::uint64_t length);
+
+/// One line about a word of GP1: "display from 0,240".
+std::string describe_control(std::uint32_t word);
 
 }  // namespace ot

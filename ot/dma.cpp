@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "ot/gp1.h"
 #include "ot/links.h"
 
 namespace ot {
@@ -24,12 +25,11 @@ constexpr std::uint32_t stepped(std::uint32_t control_word, std::uint32_t addres
   return (control::Backwards::get(control_word) != 0 ? address - bytes : address + bytes) & address_mask;
 }
 
-/// GPUSTAT bit 25, if the direction set by GP1(04h) is that of the transfer.
+/// The request in GPUSTAT, if the direction set by GP1(04h) is that of the transfer.
 bool requests(std::uint32_t gpustat, bool to_device) {
-  using Request = Field<25, 1>;
-  using Direction = Field<29, 2>;  // 1: FIFO, 2: to GP0, 3: from GPUREAD
-  const auto direction = Direction::get(gpustat);
-  return Request::get(gpustat) != 0 && (to_device ? direction == 1 || direction == 2 : direction == 3);
+  const auto direction = gpu_status::DmaDirection::get(gpustat);
+  return gpu_status::DmaRequest::get(gpustat) != 0 &&
+         (to_device ? direction == 1 || direction == 2 : direction == 3);
 }
 
 }  // namespace

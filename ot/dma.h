@@ -55,7 +55,7 @@ class DmaPort {
   virtual ~DmaPort() = default;
   virtual void gp0(std::span<const std::uint32_t> words) = 0;
   virtual std::uint32_t read() = 0;    ///< GPUREAD
-  virtual std::uint32_t status() = 0;  ///< GPUSTAT: bits 25 and 29-30 are looked at
+  virtual std::uint32_t status() = 0;  ///< GPUSTAT: DmaRequest and DmaDirection are looked at
 };
 
 /// Any object with these three members as a port, gpu::Gpu for one. It must outlive the port.

@@ -2,7 +2,7 @@
 // Every word of GPU port 0: which command it opens, how long the command is, and its fields. The packet
 // builders and the decoder of the GPU share these names.   [psx-spx, GPU Commands]
 //
-// Not here: GP1, and what a command does (src/gpu).
+// Not here: GP1 (gp1.h), and what a command does (src/gpu).
 
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +68,8 @@ constexpr bool is_drawing(Command c) {
          c == Command::rectangle || c == Command::copy || c == Command::upload;
 }
 
+inline constexpr std::uint32_t clear_cache = Opcode::put(0x01);  ///< the whole command
+
 /// Colour words, and the low 24 bits of the words that open a primitive or a fill.
 namespace colour {
 using R = Field<0, 8>;
@@ -94,8 +96,11 @@ using Texpage = Field<16, 16>;
 namespace clut {
 using X16 = Field<0, 6>;  ///< VRAM x / 16
 using Y = Field<6, 9>;
+using All = Field<0, 15>;
 }  // namespace clut
 
+/// The flags of lines and rectangles lie where those of polygons do, as far as they have them.
+///
 /// First word of 20h-3Fh.
 namespace polygon {
 using IsGouraud = Field<28, 1>;
@@ -141,7 +146,7 @@ constexpr std::size_t words(std::uint32_t first_word) {
 }
 }  // namespace rectangle
 
-/// Position and size words of fill, copy, upload and download; each command masks them in its own way.
+/// Position and size words of fill, copy, upload and download as they are sent.
 namespace area {
 using X = Field<0, 16>;
 using Y = Field<16, 16>;
@@ -149,13 +154,27 @@ using Width = Field<0, 16>;
 using Height = Field<16, 16>;
 }  // namespace area
 
+/// What counts of them. A fill is cut to blocks of 16 pixels: x down, the width up; a size that is a multiple
+/// of 1024 or 512 is empty.
+namespace fill {
+using X16 = Field<4, 6>;  ///< VRAM x / 16
+using Width = Field<0, 10>;
+using Height = Field<16, 9>;
+constexpr std::uint32_t x(std::uint32_t corner_word) { return X16::get(corner_word) * 16; }
+constexpr std::uint32_t width(std::uint32_t size_word) { return (Width::get(size_word) + 15) / 16 * 16; }
+}  // namespace fill
+
 /// Copies, uploads and downloads: w = ((W-1) & 3FFh) + 1, h = ((H-1) & 1FFh) + 1, so 0 is 1024 or 512.
 namespace transfer {
+using X = Field<0, 10>;
+using Y = Field<16, 9>;
+using Width = Field<0, 10>;
+using Height = Field<16, 9>;
 constexpr std::uint32_t width(std::uint32_t size_word) {
-  return ((area::Width::get(size_word) - 1) & 0x3ff) + 1;
+  return ((Width::get(size_word) - 1) & Width::max) + 1;
 }
 constexpr std::uint32_t height(std::uint32_t size_word) {
-  return ((area::Height::get(size_word) - 1) & 0x1ff) + 1;
+  return ((Height::get(size_word) - 1) & Height::max) + 1;
 }
 /// Two pixels a word; an odd total leaves the last high half unused.
 constexpr std::uint32_t data_words(std::uint32_t size_word) {
@@ -174,6 +193,13 @@ using DrawToDisplay = Field<10, 1>;
 using TextureDisable = Field<11, 1>;
 using FlipX = Field<12, 1>;  ///< rectangles only
 using FlipY = Field<13, 1>;
+using All = Field<0, 14>;  ///< what the register keeps
+
+/// What a page halfword replaces; TextureDisable only while GP1(09h) allows it.
+inline constexpr std::uint32_t page_bits =
+    PageX64::mask | PageY256::mask | Blend::mask | Depth::mask | TextureDisable::mask;
+
+constexpr std::uint32_t make(std::uint32_t fields) { return Opcode::put(0xe1) | All::put(fields); }
 }  // namespace draw_mode
 
 /// E2h, in units of 8 texels.
@@ -182,24 +208,31 @@ using MaskX = Field<0, 5>;
 using MaskY = Field<5, 5>;
 using OffsetX = Field<10, 5>;
 using OffsetY = Field<15, 5>;
+using All = Field<0, 20>;
+inline constexpr std::uint32_t masks = MaskX::mask | MaskY::mask;  ///< none set: there is no window
+
+constexpr std::uint32_t make(std::uint32_t fields) { return Opcode::put(0xe2) | All::put(fields); }
 }  // namespace texture_window
 
 /// E3h and E4h, both corners inclusive.
 namespace draw_area {
 using X = Field<0, 10>;
 using Y = Field<10, 10>;
+using All = Field<0, 20>;
 }  // namespace draw_area
 
 /// E5h, two's complement.
 namespace draw_offset {
 using X = Field<0, 11>;
 using Y = Field<11, 11>;
+using All = Field<0, 22>;
 }  // namespace draw_offset
 
 /// E6h.
 namespace mask_bits {
 using Set = Field<0, 1>;   ///< written pixels get bit 15
 using Test = Field<1, 1>;  ///< pixels with bit 15 are not written
+using All = Field<0, 2>;
 }  // namespace mask_bits
 
 /// E7h-EFh: the view-space depth (unsigned 20.12) and the fractions of the screen coordinates of the vertices

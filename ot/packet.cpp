@@ -161,10 +161,8 @@ std::size_t encode(const Download& d, std::span<std::uint32_t> out) {
 
 std::size_t encode(const DrawMode& m, std::span<std::uint32_t> out) {
   using namespace gp0::draw_mode;
-  constexpr std::uint32_t page =
-      PageX64::mask | PageY256::mask | Blend::mask | Depth::mask | TextureDisable::mask;
   Writer w{out};
-  w.put(opcode(0xe1) | (m.texpage & page) | Dither::put(m.dither) | DrawToDisplay::put(m.draw_to_display) |
+  w.put(make(m.texpage & page_bits) | Dither::put(m.dither) | DrawToDisplay::put(m.draw_to_display) |
         FlipX::put(m.flip_x) | FlipY::put(m.flip_y));
   return w.count;
 }
@@ -172,8 +170,8 @@ std::size_t encode(const DrawMode& m, std::span<std::uint32_t> out) {
 std::size_t encode(const TextureWindow& t, std::span<std::uint32_t> out) {
   using namespace gp0::texture_window;
   Writer w{out};
-  w.put(opcode(0xe2) | MaskX::put(t.mask_x) | MaskY::put(t.mask_y) | OffsetX::put(t.offset_x) |
-        OffsetY::put(t.offset_y));
+  w.put(make(MaskX::put(t.mask_x) | MaskY::put(t.mask_y) | OffsetX::put(t.offset_x) |
+             OffsetY::put(t.offset_y)));
   return w.count;
 }
 

@@ -112,8 +112,10 @@ double edge_error(const scene::Knobs& given) {
     gpu.set_canvas(options);
     machine::Presenter presenter;
     base::Picture shown;
-    const std::array<std::uint32_t, 6> area_and_clear{
-        0xe3000000, 0xe4000000 | (side - 1) | (side - 1) << 10, 0xe5000000, 0x02000000, 0, side | side << 16};
+    std::array<std::uint32_t, 6> area_and_clear{};
+    auto n = ot::encode(ot::DrawArea{.right = side - 1, .bottom = side - 1}, area_and_clear);
+    n += ot::encode(ot::DrawOffset{}, std::span(area_and_clear).subspan(n));
+    ot::encode(ot::Fill{.width = side, .height = side}, std::span(area_and_clear).subspan(n));
     for (int i = 0; i <= machine::Presenter::frames_before(knobs); ++i) {
       gpu.canvas()->begin_frame(0, 0);
       gpu.gp0(area_and_clear);

@@ -32,7 +32,9 @@ bool dithers(const Primitive& p) {
   const bool shaded = p.kind == gpu::Kind::polygon && !p.is_raw() && (p.is_gouraud() || p.is_textured());
   return p.state.dithers() && (p.kind == gpu::Kind::line || shaded);
 }
-bool is_windowed(const Primitive& p) { return p.is_textured() && (p.state.texture_window & 0x3ff) != 0; }
+bool is_windowed(const Primitive& p) {
+  return p.is_textured() && (p.state.texture_window & gp0::texture_window::masks) != 0;
+}
 bool sets_mask(const Primitive& p) { return p.kind <= gpu::Kind::line && p.state.mask_set() != 0; }
 bool tests_mask(const Primitive& p) { return p.kind <= gpu::Kind::line && p.state.mask_test() != 0; }
 
@@ -93,8 +95,12 @@ struct PolygonWords {
   }
 };
 
-constexpr std::uint32_t gouraud_bit = 1U << 28, textured_bit = 1U << 26, semi_bit = 1U << 25,
-                        raw_bit = 1U << 24;
+constexpr std::uint32_t gouraud_bit = gp0::polygon::IsGouraud::mask,
+                        textured_bit = gp0::polygon::IsTextured::mask,
+                        semi_bit = gp0::polygon::IsSemiTransparent::mask, raw_bit = gp0::polygon::IsRaw::mask;
+
+/// What of the draw mode polygons read.
+using PolygonMode = ot::Field<0, 11>;
 
 /// Follows the draw mode as the GPU does and edits what comes by.
 class Editor {
@@ -108,12 +114,14 @@ class Editor {
       case gp0::Command::line:
         return line(words);
       case gp0::Command::draw_mode:
-        mode_ = words[0] & 0x7ff;
-        return attribute(words[0], effect_ == dither ? ~(1U << 9) : ~0U);
+        mode_ = PolygonMode::get(words[0]);
+        return attribute(words[0], effect_ == dither ? gp0::draw_mode::Dither::mask : 0);
       case gp0::Command::texture_window:
-        return attribute(words[0], effect_ == window ? ~0x3ffU : ~0U);
+        return attribute(words[0], effect_ == window ? gp0::texture_window::masks : 0);
       case gp0::Command::mask_bits:
-        return attribute(words[0], effect_ == mask_set ? ~1U : effect_ == mask_test ? ~2U : ~0U);
+        return attribute(words[0], effect_ == mask_set    ? gp0::mask_bits::Set::mask
+                                   : effect_ == mask_test ? gp0::mask_bits::Test::mask
+                                                          : 0);
       default:
         out.insert(out.end(), words.begin(), words.end());
     }
@@ -122,18 +130,21 @@ class Editor {
   std::vector<std::uint32_t> out;
 
  private:
-  void attribute(std::uint32_t word, std::uint32_t keep) { out.push_back(word & keep); }
+  void attribute(std::uint32_t word, std::uint32_t cleared) { out.push_back(word & ~cleared); }
 
   [[nodiscard]] bool is_blend() const { return effect_ >= average && effect_ <= add_quarter; }
-  [[nodiscard]] bool blends_so() const { return is_blend() && (mode_ >> 5 & 3) == effect_ - average; }
+  [[nodiscard]] bool blends_so() const {
+    return is_blend() && gp0::draw_mode::Blend::get(mode_) == effect_ - average;
+  }
 
   void polygon(PolygonWords p) {
     const bool textured = (p.command & textured_bit) != 0;
-    if (textured) mode_ = (mode_ & ~0x1ffU) | (gp0::texcoord::Texpage::get(p.uv[1]) & 0x1ff);
-    const auto format = std::min<std::size_t>(mode_ >> 7 & 3, 2);
+    constexpr std::uint32_t page = gp0::draw_mode::page_bits & ~gp0::draw_mode::TextureDisable::mask;
+    if (textured) mode_ = (mode_ & ~page) | (gp0::texcoord::Texpage::get(p.uv[1]) & page);
+    const auto format = std::min<std::size_t>(gp0::draw_mode::Depth::get(mode_), direct15);
     if (textured && effect_ <= direct15 && format == effect_) {
       // The page of a textured polygon stays in force; without it the draw mode must say the same.
-      out.push_back(0xe1000000 | mode_);
+      out.push_back(gp0::draw_mode::make(mode_));
       p.command &= ~(textured_bit | raw_bit);
     }
     if (effect_ == modulation && textured) p.command |= raw_bit;

@@ -8,6 +8,7 @@
 
 #include "dump/compression.h"
 #include "ot/command_stream.h"
+#include "ot/gp1.h"
 
 namespace dump {
 namespace {
@@ -61,15 +62,16 @@ class Checker {
   }
 
   void port1(const Packet& packet) {
-    if (std::ranges::any_of(dump_.payload(packet), aborts_command)) stream_.abort();
+    if (std::ranges::any_of(dump_.payload(packet), ot::gp1::aborts_command)) stream_.abort();
   }
 
   /// One clause about the command that is still open; empty: none is.
   [[nodiscard]] std::string open_command() const {
     if (!stream_.is_open()) return {};
     if (stream_.command() == ot::gp0::Command::polyline) return "the polyline that begins here has no end";
-    return "the command that begins here (" + hex_byte(stream_.words()[0] >> 24) + ") ends after " +
-           std::to_string(stream_.length()) + " of " + std::to_string(stream_.needed()) + " words";
+    return "the command that begins here (" + hex_byte(ot::gp0::Opcode::get(stream_.words()[0])) +
+           ") ends after " + std::to_string(stream_.length()) + " of " + std::to_string(stream_.needed()) +
+           " words";
   }
   [[nodiscard]] std::uint64_t command_offset() const { return command_offset_; }
 
@@ -151,7 +153,7 @@ class DrawingLimit {
     return words;
   }
   void port1(std::uint32_t word) {
-    if (aborts_command(word)) stream_.abort();
+    if (ot::gp1::aborts_command(word)) stream_.abort();
   }
   [[nodiscard]] bool reached() const { return left_ == std::uint64_t{0}; }
 
@@ -161,8 +163,8 @@ class DrawingLimit {
 };
 
 void read_words(gpu::Gpu& gpu, std::uint32_t count, std::vector<std::uint32_t>* into) {
-  constexpr std::uint32_t data_ready = 1U << 27;  // GPUSTAT: without it every read gives the same latch
-  for (; count > 0 && (gpu.status() & data_ready) != 0; --count) {
+  // Without pixels to send every read gives the same latch.
+  for (; count > 0 && ot::gpu_status::ReadyToSend::get(gpu.status()) != 0; --count) {
     const auto word = gpu.read();
     if (into != nullptr) into->push_back(word);
   }

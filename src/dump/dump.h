@@ -59,9 +59,6 @@ struct Dump {
   void add_text(PacketType type, std::string_view text);
 };
 
-/// GP1(00h) and GP1(01h) abort the open GP0 command. Codes 40h-FFh mirror 00h-3Fh.   [psx-spx, GP1]
-constexpr bool aborts_command(std::uint32_t gp1_word) { return (gp1_word >> 24 & 0x3e) == 0; }
-
 /// Reads a plain dump (unpack() first) and checks it: every packet whole, every command complete at the end,
 /// read counts within VRAM. Counts VSyncs and drawing commands. Never reads beyond `bytes`, and needs memory
 /// in proportion to it alone.

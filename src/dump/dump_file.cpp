@@ -11,6 +11,7 @@
 #include "dump/compression.h"
 #include "ot/command_stream.h"
 #include "ot/describe.h"
+#include "ot/gp1.h"
 
 namespace dump {
 namespace {
@@ -25,41 +26,6 @@ dump::Compression compression_by_name(const std::filesystem::path& path) {
   const auto extension = lower_extension(path);
   if (extension == ".zst") return dump::Compression::zstd;
   return extension == ".xz" ? dump::Compression::xz : dump::Compression::none;
-}
-
-std::string gp1_text(std::uint32_t word) {
-  switch (word >> 24 & 0x3f) {
-    case 0x00:
-      return "reset";
-    case 0x01:
-      return "clear FIFO";
-    case 0x02:
-      return "acknowledge interrupt";
-    case 0x03:
-      return (word & 1) != 0 ? "display off" : "display on";
-    case 0x04:
-      return "DMA direction " + std::to_string(word & 3);
-    case 0x05:
-      return "display from " + std::to_string(word & 0x3ff) + "," + std::to_string(word >> 10 & 0x1ff);
-    case 0x06:
-      return "horizontal range " + std::to_string(word & 0xfff) + ".." + std::to_string(word >> 12 & 0xfff);
-    case 0x07:
-      return "vertical range " + std::to_string(word & 0x3ff) + ".." + std::to_string(word >> 10 & 0x3ff);
-    case 0x08: {
-      static constexpr int widths[] = {256, 320, 512, 640};
-      std::string text =
-          "display mode " + std::to_string((word & 0x40) != 0 ? 368 : widths[word & 3]) + " wide";
-      if ((word & 0x04) != 0) text += ", 480 lines";
-      if ((word & 0x08) != 0) text += ", PAL";
-      if ((word & 0x10) != 0) text += ", 24 bit";
-      if ((word & 0x20) != 0) text += ", interlaced";
-      return text;
-    }
-    case 0x09:
-      return (word & 1) != 0 ? "allow textures off" : "forbid textures off";
-    default:
-      return (word >> 24 & 0x30) == 0x10 ? "read register " + std::to_string(word & 15) : "unknown, nothing";
-  }
 }
 
 std::string packet_text(const dump::Dump& dump, const dump::Packet& packet, std::uint64_t vsyncs) {
@@ -166,13 +132,14 @@ void list_dump(const dump::Dump& dump, const dump::ReplayOptions& options,
         const bool draws_now = ot::gp0::is_drawing(stream.command());
         if (draws_now) ++draws;
         line(line_of(begin, "GP0", draws_now ? std::string("#").append(std::to_string(draws)) : "-",
-                     stream.words()[0] >> 24, ot::describe(stream.words(), stream.length())));
+                     ot::gp0::Opcode::get(stream.words()[0]), ot::describe(stream.words(), stream.length())));
         if (draws_now && options.until && draws == *options.until) return;
       }
     } else if (packet.type == dump::PacketType::port1) {
       for (std::size_t n = 0; n < payload.size(); ++n) {
-        line(line_of(packet.offset + 4 + 4 * n, "GP1", "-", payload[n] >> 24, gp1_text(payload[n])));
-        if (dump::aborts_command(payload[n])) stream.abort();
+        line(line_of(packet.offset + 4 + 4 * n, "GP1", "-", ot::gp0::Opcode::get(payload[n]),
+                     ot::describe_control(payload[n])));
+        if (ot::gp1::aborts_command(payload[n])) stream.abort();
       }
     } else {
       if (packet.type == dump::PacketType::vsync) ++vsyncs;

@@ -1,50 +1,14 @@
 // GP1, GPUSTAT and GPUREAD.
 
 #include "gpu/gpu.h"
-#include "ot/field.h"
+#include "ot/gp1.h"
 
 namespace gpu {
 
-using ot::Field;
-
-namespace {
-
-/// GP1 words: bits 24-29 say which; 40h-FFh mirror 00h-3Fh. [psx-spx, GPU Display Control Commands]
-enum Control : std::uint32_t {
-  reset = 0x00,
-  clear_fifo = 0x01,
-  acknowledge_irq = 0x02,
-  display_off = 0x03,
-  dma_direction = 0x04,
-  display_start = 0x05,
-  horizontal_range = 0x06,
-  vertical_range = 0x07,
-  display_mode = 0x08,
-  allow_texture_disable = 0x09,
-};
-
-namespace status_bits {
-using DrawMode = Field<0, 11>;
-using Mask = Field<11, 2>;
-using Field_ = Field<13, 1>;  ///< the field being output; 1 when not interlaced
-using Reverse = Field<14, 1>;
-using TextureDisable = Field<15, 1>;
-using Width368 = Field<16, 1>;
-using Mode = Field<17, 6>;  ///< GP1(08h) bits 0-5
-using DisplayOff = Field<23, 1>;
-using Irq = Field<24, 1>;
-using DmaRequest = Field<25, 1>;
-using ReadyForCommand = Field<26, 1>;
-using ReadyToSend = Field<27, 1>;
-using ReadyForDma = Field<28, 1>;
-using DmaDirection = Field<29, 2>;
-}  // namespace status_bits
-
-}  // namespace
-
 void Gpu::gp1(std::uint32_t word) {
-  switch (const std::uint32_t control = word >> 24 & 0x3f) {
-    case reset:
+  using gp1::Command;
+  switch (gp1::command_of(word)) {
+    case Command::reset:
       abort_command();
       clut_.invalidate();
       annotation_ = {};
@@ -53,35 +17,37 @@ void Gpu::gp1(std::uint32_t word) {
       irq_ = false;
       dma_direction_ = 0;
       break;
-    case clear_fifo:
+    case Command::clear_fifo:
       abort_command();
       break;
-    case acknowledge_irq:
+    case Command::acknowledge_irq:
       irq_ = false;
       break;
-    case display_off:
-      display_.is_off = (word & 1) != 0;
+    case Command::display_off:
+      display_.is_off = gp1::display_off::IsOff::get(word) != 0;
       break;
-    case dma_direction:
-      dma_direction_ = word & 3;
+    case Command::dma_direction:
+      dma_direction_ = gp1::dma_direction::Direction::get(word);
       break;
-    case display_start:
-      display_.start = word & 0x7ffff;
+    case Command::display_start:
+      display_.start = gp1::display_start::All::get(word);
       break;
-    case horizontal_range:
-      display_.horizontal_range = word & 0xffffff;
+    case Command::horizontal_range:
+      display_.horizontal_range = gp1::horizontal_range::All::get(word);
       break;
-    case vertical_range:
-      display_.vertical_range = word & 0xfffff;
+    case Command::vertical_range:
+      display_.vertical_range = gp1::vertical_range::All::get(word);
       break;
-    case display_mode:
-      display_.mode = word & 0xff;
+    case Command::display_mode:
+      display_.mode = gp1::display_mode::All::get(word);
       break;
-    case allow_texture_disable:
-      texture_disable_allowed_ = (word & 1) != 0;
+    case Command::allow_texture_disable:
+      texture_disable_allowed_ = gp1::allow_texture_disable::IsAllowed::get(word) != 0;
       break;
-    default:
-      if (control >= 0x10 && control < 0x20) latch_register(word & 15);
+    case Command::read_register:
+      latch_register(gp1::read_register::Number::get(word));
+      break;
+    case Command::unknown:
       break;
   }
   update_skipped_rows();
@@ -117,20 +83,22 @@ void Gpu::latch_register(std::uint32_t number) {
 }
 
 std::uint32_t Gpu::status() const {
-  namespace bits = status_bits;
+  namespace status = ot::gpu_status;
   const DrawState& state = current_.state;
   const std::uint32_t mode = display_.mode;
   const bool is_open = gathered_count_ != 0 || polyline_open_ || upload_.is_active();
   const bool sends = download_.is_active();
   const bool takes = !sends;
   const bool requests[] = {false, true, takes, sends};  // by DMA direction; the FIFO is never full
-  return bits::DrawMode::put(state.draw_mode) | bits::Mask::put(state.mask) |
-         bits::Field_::put(!display_.is_interlaced() || display_.odd_field) | bits::Reverse::put(mode >> 7) |
-         bits::TextureDisable::put(state.draw_mode >> 11) | bits::Width368::put(mode >> 6) |
-         bits::Mode::put(mode) | bits::DisplayOff::put(display_.is_off) | bits::Irq::put(irq_) |
-         bits::DmaRequest::put(requests[dma_direction_]) | bits::ReadyForCommand::put(!is_open && !sends) |
-         bits::ReadyToSend::put(sends) | bits::ReadyForDma::put(takes) |
-         bits::DmaDirection::put(dma_direction_);
+  return status::DrawMode::put(state.draw_mode) | status::Mask::put(state.mask) |
+         status::OddField::put(!display_.is_interlaced() || display_.odd_field) |
+         status::IsReversed::put(gp1::display_mode::IsReversed::get(mode)) |
+         status::TextureDisable::put(gp0::draw_mode::TextureDisable::get(state.draw_mode)) |
+         status::IsWidth368::put(gp1::display_mode::IsWidth368::get(mode)) | status::DisplayMode::put(mode) |
+         status::IsDisplayOff::put(display_.is_off) | status::Irq::put(irq_) |
+         status::DmaRequest::put(requests[dma_direction_]) |
+         status::ReadyForCommand::put(!is_open && !sends) | status::ReadyToSend::put(sends) |
+         status::ReadyForDma::put(takes) | status::DmaDirection::put(dma_direction_);
 }
 
 std::uint32_t Gpu::read() {
@@ -151,8 +119,8 @@ void Gpu::next_field() {
 
 /// Drawing to the displayed field is off by default: its rows are skipped. [psx-spx, GP0(E1h) bit 10]
 void Gpu::update_skipped_rows() {
-  const bool draws_to_display = (current_.state.draw_mode >> 10 & 1) != 0;
-  const bool skips = display_.is_480_lines() && display_.is_interlaced() && !draws_to_display;
+  const bool skips =
+      display_.is_480_lines() && display_.is_interlaced() && !current_.state.draws_to_display();
   const bool odd = ((display_.start_y() & 1) != 0) != display_.odd_field;
   current_.state.skipped_rows = !skips ? SkippedRows::none : odd ? SkippedRows::odd : SkippedRows::even;
 }

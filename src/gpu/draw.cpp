@@ -9,8 +9,6 @@
 
 namespace gpu {
 
-namespace gp0 = ot::gp0;
-
 namespace {
 
 void put_colour(Vertex& vertex, std::uint32_t word) {
@@ -30,8 +28,8 @@ void put_texcoord(Vertex& vertex, std::uint32_t word) {
 }
 
 void put_corner(Vertex& vertex, std::uint32_t word) {
-  vertex.x = static_cast<std::int32_t>(gp0::area::X::get(word) & 0x3ff);
-  vertex.y = static_cast<std::int32_t>(gp0::area::Y::get(word) & 0x1ff);
+  vertex.x = static_cast<std::int32_t>(gp0::transfer::X::get(word));
+  vertex.y = static_cast<std::int32_t>(gp0::transfer::Y::get(word));
 }
 
 }  // namespace
@@ -66,11 +64,15 @@ void Gpu::polygon(const std::uint32_t* words) {
   }
 }
 
+/// Of an E1h word or a page halfword what may be stored.
+std::uint32_t Gpu::allowed_mode(std::uint32_t word) const {
+  return texture_disable_allowed_ ? word : word & ~gp0::draw_mode::TextureDisable::mask;
+}
+
 /// The page halfword of a textured polygon stays in force. [ps1-tests gp0-e1]
 void Gpu::use_texture_page(std::uint32_t halfword) {
-  const std::uint32_t replaced = texture_disable_allowed_ ? 0x9ff : 0x1ff;
   std::uint32_t& mode = current_.state.draw_mode;
-  mode = (mode & ~0x9ffU) | (halfword & replaced);
+  mode = (mode & ~gp0::draw_mode::page_bits) | (allowed_mode(halfword) & gp0::draw_mode::page_bits);
 }
 
 void Gpu::rectangle(const std::uint32_t* words) {
@@ -119,7 +121,7 @@ void Gpu::line(const std::uint32_t* words) {
 /// Vertices of an open polyline. Only the first word of a vertex can be the terminator: [colour] vertex.
 const std::uint32_t* Gpu::continue_polyline(const std::uint32_t* at, const std::uint32_t* end) {
   Primitive& p = current_;
-  const bool is_gouraud = (p.command >> 28 & 1) != 0;
+  const bool is_gouraud = p.is_gouraud();
   while (at != end) {
     const std::uint32_t word = *at++;
     if (!polyline_has_colour_) {
@@ -149,7 +151,6 @@ void Gpu::line_segment() {
   draw_line(surface(), current_);
 }
 
-/// Position and width are cut to multiples of 16; a size that is a multiple of 1024 or 512 is empty.
 void Gpu::fill(const std::uint32_t* words) {
   draw_queue();
   Primitive& p = current_;
@@ -157,9 +158,9 @@ void Gpu::fill(const std::uint32_t* words) {
   p.command = words[0];
   p.vertex_count = 1;
   put_corner(p.vertices[0], words[1]);
-  p.vertices[0].x &= 0x3f0;
-  p.width = static_cast<int>(((gp0::area::Width::get(words[2]) & 0x3ff) + 15) & ~15U);
-  p.height = static_cast<int>(gp0::area::Height::get(words[2]) & 0x1ff);
+  p.vertices[0].x = static_cast<int>(gp0::fill::x(words[1]));
+  p.width = static_cast<int>(gp0::fill::width(words[2]));
+  p.height = static_cast<int>(gp0::fill::Height::get(words[2]));
   begin_command();
   note(Kind::fill);
   fill_rectangle(surface(), p);

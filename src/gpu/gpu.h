@@ -135,6 +135,7 @@ class Gpu {
   void begin_upload(const std::uint32_t* words);
   void begin_download(const std::uint32_t* words);
   const std::uint32_t* upload(const std::uint32_t* at, const std::uint32_t* end);
+  [[nodiscard]] std::uint32_t allowed_mode(std::uint32_t word) const;
   void use_texture_page(std::uint32_t halfword);
   void take_depth();
   void begin_command();

@@ -9,8 +9,6 @@
 
 namespace gpu {
 
-namespace gp0 = ot::gp0;
-
 namespace {
 
 /// What ot/gp0.h says of each opcode, looked up instead of decided.
@@ -120,23 +118,23 @@ void Gpu::set_attribute(std::uint32_t word) {
   DrawState& state = current_.state;
   switch (gp0::command_of(word)) {
     case gp0::Command::draw_mode:
-      state.draw_mode = word & (texture_disable_allowed_ ? 0x3fff : 0x37ff);
+      state.draw_mode = gp0::draw_mode::All::get(allowed_mode(word));
       update_skipped_rows();
       break;
     case gp0::Command::texture_window:
-      state.texture_window = word & 0xfffff;
+      state.texture_window = gp0::texture_window::All::get(word);
       break;
     case gp0::Command::area_top_left:
-      state.area_top_left = word & 0xfffff;
+      state.area_top_left = gp0::draw_area::All::get(word);
       break;
     case gp0::Command::area_bottom_right:
-      state.area_bottom_right = word & 0xfffff;
+      state.area_bottom_right = gp0::draw_area::All::get(word);
       break;
     case gp0::Command::draw_offset:
-      state.offset = word & 0x3fffff;
+      state.offset = gp0::draw_offset::All::get(word);
       break;
     default:
-      state.mask = word & 3;
+      state.mask = gp0::mask_bits::All::get(word);
       break;
   }
 }

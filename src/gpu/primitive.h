@@ -36,13 +36,15 @@ struct Primitive {
   std::int32_t width = 0, height = 0;  ///< rectangle, fill, copy, upload: pixels
   std::array<Vertex, 4> vertices{};
 
-  [[nodiscard]] bool is_gouraud() const { return (command >> 28 & 1) != 0; }
+  [[nodiscard]] bool is_gouraud() const { return gp0::polygon::IsGouraud::get(command) != 0; }
   [[nodiscard]] bool is_quad() const { return vertex_count == 4; }
   [[nodiscard]] bool is_textured() const {
-    return (kind == Kind::polygon || kind == Kind::rectangle) && (command >> 26 & 1) != 0;
+    return (kind == Kind::polygon || kind == Kind::rectangle) && gp0::polygon::IsTextured::get(command) != 0;
   }
-  [[nodiscard]] bool is_semi_transparent() const { return kind <= Kind::line && (command >> 25 & 1) != 0; }
-  [[nodiscard]] bool is_raw() const { return is_textured() && (command >> 24 & 1) != 0; }
+  [[nodiscard]] bool is_semi_transparent() const {
+    return kind <= Kind::line && gp0::polygon::IsSemiTransparent::get(command) != 0;
+  }
+  [[nodiscard]] bool is_raw() const { return is_textured() && gp0::polygon::IsRaw::get(command) != 0; }
 };
 
 }  // namespace gpu

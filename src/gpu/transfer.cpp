@@ -47,7 +47,7 @@ bool is_plain(const Surface& surface, const DrawState& state) {
 
 void ClutCache::use(const Vram& vram, std::uint16_t clut, TexelFormat format) {
   if (format == TexelFormat::direct15) return;
-  const std::uint32_t tag = clut & 0x7fffU;
+  const std::uint32_t tag = ot::gp0::clut::All::get(clut);
   if (tag == tag_ && loaded_ >= format) return;
   tag_ = tag;
   loaded_ = format;

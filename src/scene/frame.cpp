@@ -8,6 +8,7 @@
 
 #include "gpu/gpu.h"
 #include "ot/gp0.h"
+#include "ot/gp1.h"
 #include "scene/angle.h"
 #include "scene/lists.h"
 #include "scene/model.h"
@@ -281,7 +282,8 @@ void FrameBuilder::prepare(const Knobs& knobs) {
 }
 
 std::vector<std::uint32_t> FrameBuilder::upload_gp0() const {
-  std::vector<std::uint32_t> words{0x01000000};  // the CLUT cache must not keep what was there before
+  std::vector<std::uint32_t> words{
+      ot::gp0::clear_cache};  // the CLUT cache must not keep what was there before
   for (const auto& block : state_->pack.blocks) {
     std::array<std::uint32_t, 3> header{};
     ot::encode(block.area, header);
@@ -296,13 +298,12 @@ std::vector<std::uint32_t> FrameBuilder::upload_gp0() const {
 
 std::vector<std::uint32_t> FrameBuilder::display_gp1() const {
   const bool tall = state_->height == 480;
-  const std::uint32_t width_bits = state_->width == 256   ? 0
-                                   : state_->width == 320 ? 1
-                                   : state_->width == 512 ? 2
-                                   : state_->width == 640 ? 3
-                                                          : 0x40;
+  namespace gp1 = ot::gp1;
+  using namespace gp1::display_mode;
   // 480 lines come as two interlaced fields. The ranges are those of a 240-line NTSC picture.
-  return {0x08000000 | width_bits | (tall ? 0x24U : 0U), 0x06c60260, 0x07040010, 0x05000000, 0x03000000};
+  return {gp1::display_mode::make(put_width(state_->width) | Is480Lines::put(tall) | IsInterlaced::put(tall)),
+          gp1::horizontal_range::make(0x260, 0xc60), gp1::vertical_range::make(0x10, 0x100),
+          gp1::display_start::make(0, 0), gp1::display_off::make(false)};
 }
 
 void FrameBuilder::upload(gpu::Gpu& gpu) {
@@ -444,7 +445,7 @@ void FrameBuilder::polygons(double seconds, const Knobs& knobs, std::vector<Scre
 }
 
 std::uint32_t FrameBuilder::show_gp1(const Frame& frame) {
-  return 0x05000000U | static_cast<std::uint32_t>(frame.buffer_y) << 10;
+  return ot::gp1::display_start::make(0, frame.buffer_y);
 }
 
 }  // namespace scene

@@ -153,7 +153,10 @@ TexelAxis axis(const Prepared& p, int texels, int origin) {
 
 std::uint32_t window_word(const TexelAxis& u, const TexelAxis& v) {
   ot::TextureWindow window;
-  const auto mask = [](int period) { return static_cast<std::uint8_t>(~(period / 8 - 1) & 31); };
+  const auto mask = [](int period) {
+    return static_cast<std::uint8_t>(~(period / 8 - 1) &
+                                     static_cast<int>(ot::gp0::texture_window::MaskX::max));
+  };
   if (u.windowed && u.texels < 256) {
     window.mask_x = mask(std::max(u.texels, 8));
     window.offset_x = static_cast<std::uint8_t>(u.origin / 8);
@@ -217,7 +220,8 @@ std::optional<TexturePack> try_pack(std::span<const Prepared> prepared, int widt
   Tables tables(space, width);
   for (const auto i : order)
     if (!store(prepared[i], space, tables, pack, pack.textures[i])) return std::nullopt;
-  for (const auto& t : pack.textures) pack.uses_windows = pack.uses_windows || (t.window & 0xffffff) != 0;
+  for (const auto& t : pack.textures)
+    pack.uses_windows = pack.uses_windows || (t.window & ot::gp0::texture_window::masks) != 0;
   return pack;
 }
 

@@ -39,7 +39,7 @@ struct StoredTexture {
   std::uint16_t texpage = 0;  ///< blend mode 0
   std::uint16_t clut = 0;
   TexelAxis u, v;
-  std::uint32_t window = 0xe2000000;  ///< E2h word
+  std::uint32_t window = ot::gp0::texture_window::make(0);  ///< E2h word
 };
 
 /// A rectangle of VRAM and what to put there.
