@@ -31,11 +31,11 @@ std::string clut_text(std::uint16_t clut) {
 
 std::string page_text(std::uint32_t page) {
   using namespace gp0::draw_mode;
-  static constexpr std::array depths{"4-bit", "8-bit", "15-bit", "15-bit"};
+  static constexpr std::array formats{"4-bit", "8-bit", "15-bit", "15-bit"};
   static constexpr std::array blends{"(B+F)/2", "B+F", "B-F", "B+F/4"};
   return format(" page %u,%u %s blend %s", static_cast<unsigned>(PageX64::get(page) * 64),
-                static_cast<unsigned>(PageY256::get(page) * 256), depths[Depth::get(page)],
-                blends[Blend::get(page)]);
+                static_cast<unsigned>(PageY256::get(page) * 256), formats[Format::get(page)],
+                blends[gp0::draw_mode::Blend::get(page)]);
 }
 
 std::string flags(bool gouraud, bool textured, bool semi_transparent, bool raw) {

@@ -9,6 +9,22 @@
 
 #include "ot/field.h"
 
+namespace ot {
+
+/// How a pixel is mixed with what is there. Per 5-bit channel, B = what is there, F = new.
+enum class Blend : std::uint8_t {
+  opaque,       ///< F
+  average,      ///< (B + F) >> 1
+  add,          ///< min(31, B + F)
+  subtract,     ///< max(0, B - F)
+  add_quarter,  ///< min(31, B + (F >> 2))
+};
+
+/// How texels lie in VRAM: 4 or 8 bits that choose a colour of a palette (CLUT), or 15-bit colours.
+enum class TexelFormat : std::uint8_t { none, clut4, clut8, direct15 };
+
+}  // namespace ot
+
 namespace ot::gp0 {
 
 using Opcode = Field<24, 8>;  ///< of the first word of a command
@@ -186,8 +202,8 @@ constexpr std::uint32_t data_words(std::uint32_t size_word) {
 namespace draw_mode {
 using PageX64 = Field<0, 4>;  ///< VRAM x / 64
 using PageY256 = Field<4, 1>;
-using Blend = Field<5, 2>;  ///< (B+F)/2, B+F, B-F, B+F/4
-using Depth = Field<7, 2>;  ///< 0: 4-bit CLUT, 1: 8-bit CLUT, 2 and 3: 15-bit
+using Blend = Field<5, 2>;   ///< of what is semi-transparent: blend_of
+using Format = Field<7, 2>;  ///< of texels: format_of
 using Dither = Field<9, 1>;
 using DrawToDisplay = Field<10, 1>;
 using TextureDisable = Field<11, 1>;
@@ -197,7 +213,24 @@ using All = Field<0, 14>;  ///< what the register keeps
 
 /// What a page halfword replaces; TextureDisable only while GP1(09h) allows it.
 inline constexpr std::uint32_t page_bits =
-    PageX64::mask | PageY256::mask | Blend::mask | Depth::mask | TextureDisable::mask;
+    PageX64::mask | PageY256::mask | Blend::mask | Format::mask | TextureDisable::mask;
+
+/// 0..3 are the four ways to mix.
+constexpr ot::Blend blend_of(std::uint32_t word) { return static_cast<ot::Blend>(1 + Blend::get(word)); }
+/// Of opaque, which no bits say: 0.
+constexpr std::uint32_t put(ot::Blend blend) {
+  return blend == ot::Blend::opaque ? 0 : Blend::put(static_cast<std::uint32_t>(blend) - 1);
+}
+
+/// 3 is 2.
+constexpr TexelFormat format_of(std::uint32_t word) {
+  const std::uint32_t format = Format::get(word);
+  return static_cast<TexelFormat>(format == 3 ? 3 : 1 + format);
+}
+/// Of none, which no bits say: 0.
+constexpr std::uint32_t put(TexelFormat format) {
+  return format == TexelFormat::none ? 0 : Format::put(static_cast<std::uint32_t>(format) - 1);
+}
 
 constexpr std::uint32_t make(std::uint32_t fields) { return Opcode::put(0xe1) | All::put(fields); }
 }  // namespace draw_mode

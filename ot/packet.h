@@ -138,11 +138,10 @@ struct DepthAnnotation {
   bool operator==(const DepthAnnotation&) const = default;
 };
 
-/// The texture page halfword: x a multiple of 64, y 0 or 256, blend 0..3, depth 0 (4-bit), 1 (8-bit), 2.
-constexpr std::uint16_t texpage_of(unsigned x, unsigned y, unsigned blend, unsigned depth) {
+/// The texture page halfword: x a multiple of 64, y 0 or 256.
+constexpr std::uint16_t texpage_of(unsigned x, unsigned y, Blend blend, TexelFormat format) {
   using namespace gp0::draw_mode;
-  return static_cast<std::uint16_t>(PageX64::put(x / 64) | PageY256::put(y / 256) | Blend::put(blend) |
-                                    Depth::put(depth));
+  return static_cast<std::uint16_t>(PageX64::put(x / 64) | PageY256::put(y / 256) | put(blend) | put(format));
 }
 
 /// The CLUT halfword: x a multiple of 16.

@@ -104,23 +104,25 @@ scene::Knobs lowered(const scene::Knobs& knobs, std::string_view name) {
   return less;
 }
 
+/// By ot::Blend.
+constexpr std::array blends{"", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
+
 std::string kernel_name(const gpu::Mode& mode) {
   static constexpr std::array textures{"flat colour", "4-bit texture", "8-bit texture", "15-bit texture"};
   static constexpr std::array shades{"", ", Gouraud", ", raw"};
-  static constexpr std::array writes{"", ", masked", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
-  const bool untextured = mode.surface.texture == gpu::Texture::none;
+  const bool untextured = mode.surface.texture == gpu::TexelFormat::none;
   std::string name = untextured && mode.surface.shade == gpu::Shade::gouraud
                          ? "Gouraud colour"
                          : std::string(textures[static_cast<std::size_t>(mode.surface.texture)]) +
                                shades[static_cast<std::size_t>(mode.surface.shade)];
   if (mode.surface.dither) name += ", dither";
-  name += writes[static_cast<std::size_t>(mode.write)];
+  if (mode.masked) name += ", masked";
+  name += blends[static_cast<std::size_t>(mode.blend)];
   return mode.depth ? name + ", depth" : name;
 }
 
 std::string kernel_name(const gpu::canvas::Mode& mode) {
   static constexpr std::array textures{"colour", "4-bit texture", "8-bit texture", "15-bit texture"};
-  static constexpr std::array blends{"", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
   std::string name = std::string("accurate: ") + textures[static_cast<std::size_t>(mode.texture)] +
                      blends[static_cast<std::size_t>(mode.blend)];
   return mode.depth ? name + ", depth" : name;

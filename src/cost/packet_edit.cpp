@@ -141,7 +141,7 @@ class Editor {
     const bool textured = (p.command & textured_bit) != 0;
     constexpr std::uint32_t page = gp0::draw_mode::page_bits & ~gp0::draw_mode::TextureDisable::mask;
     if (textured) mode_ = (mode_ & ~page) | (gp0::texcoord::Texpage::get(p.uv[1]) & page);
-    const auto format = std::min<std::size_t>(gp0::draw_mode::Depth::get(mode_), direct15);
+    const auto format = std::min<std::size_t>(gp0::draw_mode::Format::get(mode_), direct15);
     if (textured && effect_ <= direct15 && format == effect_) {
       // The page of a textured polygon stays in force; without it the draw mode must say the same.
       out.push_back(gp0::draw_mode::make(mode_));

@@ -68,8 +68,7 @@ void count_canvas(const gpu::canvas::Canvas& canvas, const scene::Knobs& knobs, 
   for (const auto& buffer : canvas.buffers())
     if (buffer.name == "canvas depth") t.depth += buffer.bytes;
   t.texels = c.texel_bytes;
-  const auto taps =
-      gpu::canvas::filter_taps(canvas.options(), static_cast<gpu::canvas::Reconstruction>(knobs.aa_filter));
+  const auto taps = gpu::canvas::filter_taps(canvas.options(), knobs.aa_filter);
   t.filter = pixels * (taps.size() * canvas_pixel + shown_pixel);
 }
 

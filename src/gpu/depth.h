@@ -16,6 +16,14 @@ enum class DepthMapping : std::uint8_t {
 };
 enum class DepthTest : std::uint8_t { less, lequal };  ///< when a fragment nearer, or at least as near, wins
 
+/// Which fragments of a polygon with depth are drawn. Opacity is a texel's matter: one
+/// polygon can have both kinds.
+enum class Pass : std::uint8_t {
+  console,           ///< all, untested: there is no z-buffer, or the primitive has no depth
+  opaque,            ///< those that let no light through; tested and stored
+  semi_transparent,  ///< the others; tested, not stored
+};
+
 struct DepthOptions {
   DepthFormat format = DepthFormat::bits24;
   DepthMapping mapping = DepthMapping::hyperbolic;

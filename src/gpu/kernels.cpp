@@ -90,7 +90,7 @@ STAGE Constants<D> prepare(D d, Mode m, const Job& job) {
     c.colour = {ramp(d, job.shade.r.dx), ramp(d, job.shade.g.dx), ramp(d, job.shade.b.dx)};
     c.colour_step = {step(job.shade.r), step(job.shade.g), step(job.shade.b)};
   }
-  if (m.surface.texture != Texture::none) {
+  if (m.surface.texture != TexelFormat::none) {
     c.u = ramp(d, job.texel.u.dx);
     c.v = ramp(d, job.texel.v.dx);
     c.u_step = step(job.texel.u);
@@ -134,7 +134,7 @@ STAGE Walk<D> begin(D d, Mode m, const Job& job, const Constants<D>& constants, 
                    start(job.shade.b, constants.colour.b)};
   }
   if (m.surface.dither) walk.dither = dither_offsets(d, span.x, span.y);
-  if (m.surface.texture != Texture::none) {
+  if (m.surface.texture != TexelFormat::none) {
     walk.first_u = job.texel.u.at(span.dx, span.dy) >> 24;
     walk.first_v = job.texel.v.at(span.dx, span.dy) >> 24;
     walk.is_adjacent = job.page.side_by_side && walk.first_u + static_cast<std::uint32_t>(span.count) <= 256;
@@ -165,7 +165,7 @@ STAGE void advance(D d, Mode m, const Constants<D>& constants, Walk<D>& walk) {
   }
   // The pattern repeats every four pixels.
   if (m.surface.dither && lanes % 4 != 0) walk.dither = dither_offsets(d, walk.x, walk.y);
-  if (m.surface.texture != Texture::none) {
+  if (m.surface.texture != TexelFormat::none) {
     if (walk.is_adjacent) {
       walk.first_u += static_cast<std::uint32_t>(lanes);
     } else {
@@ -192,7 +192,7 @@ STAGE V<D> depth_keys(D d, const Walk<D>& walk) {
 
 template <class D>
 STAGE V<D> texel(D d, Mode m, const Job& job, const Palette16<D>& palette, const Walk<D>& walk) {
-  if (m.surface.texture == Texture::none) return hn::Zero(d);
+  if (m.surface.texture == TexelFormat::none) return hn::Zero(d);
   if (walk.is_adjacent) {
     return through_palette(d, m, job, palette, adjacent_word(d, m, job, walk.first_u, walk.first_v));
   }
@@ -202,7 +202,8 @@ STAGE V<D> texel(D d, Mode m, const Job& job, const Palette16<D>& palette, const
 /// The pixel before it meets VRAM: 15 bits, or a raw texel with all 16.
 template <class D>
 STAGE V16<D> shade(D d, Mode m, const Job& job, const Walk<D>& walk, V<D> texel_bits) {
-  const bool is_gouraud = m.surface.shade == Shade::gouraud, is_textured = m.surface.texture != Texture::none;
+  const bool is_gouraud = m.surface.shade == Shade::gouraud,
+             is_textured = m.surface.texture != TexelFormat::none;
   if (m.surface.shade == Shade::raw) return narrow(d, texel_bits);
   if (!is_gouraud && !is_textured) return hn::Set(Half16<D>(), job.colour);
   const auto set = [d](std::uint8_t channel) { return hn::Set(d, std::int32_t{channel}); };
@@ -215,13 +216,13 @@ STAGE V16<D> shade(D d, Mode m, const Job& job, const Walk<D>& walk, V<D> texel_
 /// What of `pixel` ends in VRAM where `back` is, mask bit included.
 template <class D16, class T = hn::Vec<D16>>
 STAGE T combine(D16 d, Mode m, T mask_set, T texel_bits, T pixel, T back) {
-  const bool is_textured = m.surface.texture != Texture::none, is_blended = m.write >= Write::average;
+  const bool is_textured = m.surface.texture != TexelFormat::none, is_blended = m.blend != Blend::opaque;
   const auto bit15 = hn::Set(d, 0x8000);
   if (is_blended && is_textured) {
     const auto lets_light_through = hn::Ne(hn::And(texel_bits, bit15), hn::Zero(d));
-    pixel = hn::IfThenElse(lets_light_through, hn::Or(blend(d, m.write, back, pixel), bit15), pixel);
+    pixel = hn::IfThenElse(lets_light_through, hn::Or(blend(d, m.blend, back, pixel), bit15), pixel);
   } else if (is_blended) {
-    pixel = blend(d, m.write, back, pixel);
+    pixel = blend(d, m.blend, back, pixel);
   } else if (is_textured && m.surface.shade != Shade::raw) {
     pixel = hn::Or(pixel, hn::And(texel_bits, bit15));
   }
@@ -232,13 +233,13 @@ STAGE T combine(D16 d, Mode m, T mask_set, T texel_bits, T pixel, T back) {
 template <class D16, class T = hn::Vec<D16>>
 STAGE Event event_of(D16 d, Mode m, T mask_set, T texel16, T shaded, T back, std::size_t place) {
   Mode unblended = m;
-  unblended.write = Write::opaque;
+  unblended.blend = Blend::opaque;
   Event event;
   event.pixel = static_cast<std::uint32_t>(place);
   event.before = event.after = hn::GetLane(back);
   event.fragment = hn::GetLane(combine(d, unblended, mask_set, texel16, shaded, back));
-  event.blended = m.write >= Write::average &&
-                  (m.surface.texture == Texture::none || (hn::GetLane(texel16) & 0x8000) != 0);
+  event.blended = m.blend != Blend::opaque &&
+                  (m.surface.texture == TexelFormat::none || (hn::GetLane(texel16) & 0x8000) != 0);
   return event;
 }
 
@@ -256,13 +257,13 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Constants<D>& constants
     if constexpr (!Observer::is_on) {
       wanted = hn::AndNot(lost, wanted);
       // Worth a branch that is hard to foretell only where a texel would have to be fetched.
-      if (m.surface.texture != Texture::none && hn::AllFalse(d16, wanted)) return;
+      if (m.surface.texture != TexelFormat::none && hn::AllFalse(d16, wanted)) return;
     }
   }
 
   const auto texel_bits = texel(d, m, job, constants.palette, walk);
   const auto texel16 = narrow(d, texel_bits);
-  if (m.surface.texture != Texture::none) {
+  if (m.surface.texture != TexelFormat::none) {
     wanted = hn::And(wanted, hn::Ne(texel16, hn::Zero(d16)));  // texel 0000h is no texel
     if (m.depth) {
       const auto kind = hn::And(texel16, hn::Set(d16, job.depth.texel_mask));
@@ -271,7 +272,7 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Constants<D>& constants
   }
 
   auto back = hn::Zero(d16);
-  if (m.write != Write::opaque || Observer::is_on) {
+  if (m.reads_target() || Observer::is_on) {
     back = hn::LoadU(d16, walk.pixels);
     wanted = hn::And(wanted, hn::Eq(hn::And(back, hn::Set(d16, job.mask_test)), hn::Zero(d16)));
   }
@@ -304,7 +305,7 @@ STAGE void fill_row(std::uint16_t* to, int width, std::uint16_t value) {
 template <class D, class Observer>
 STAGE void draw_spans(D d, Mode m, const Job& job, std::span<const Span> spans, const Observer& observer) {
   constexpr int lanes = static_cast<int>(hn::MaxLanes(d));
-  if (m == Mode{{Texture::none, Shade::flat, false}, Write::opaque, false} && !Observer::is_on) {
+  if (m == Mode{{TexelFormat::none, Shade::flat, false}, Blend::opaque, false, false} && !Observer::is_on) {
     for (const Span& span : spans)
       fill_row(job.pixels + Vram::offset(span.x, span.y), span.count, job.colour);
     return;

@@ -24,15 +24,16 @@ namespace {
 
 struct LineMode {
   bool gouraud, dither;  ///< flat lines are dithered too
-  Write write;
+  bool masked;           ///< pixels with bit 15 stay; one that is blended is read anyway
+  Blend blend;
 
-  static constexpr std::size_t count = 24;
+  static constexpr std::size_t count = 2 * 2 * 2 * 5;
   static constexpr LineMode at(std::size_t i) {
-    return {i % 2 != 0, i / 2 % 2 != 0, static_cast<Write>(i / 4)};
+    return {i % 2 != 0, i / 2 % 2 != 0, i / 4 % 2 != 0, static_cast<Blend>(i / 8)};
   }
   [[nodiscard]] constexpr std::size_t index() const {
     return static_cast<std::size_t>(gouraud) + 2 * static_cast<std::size_t>(dither) +
-           4 * static_cast<std::size_t>(write);
+           4 * static_cast<std::size_t>(masked) + 8 * static_cast<std::size_t>(blend);
   }
 };
 
@@ -61,17 +62,17 @@ constexpr auto levels = [] {
 constexpr std::uint8_t dither_rows[4][4] = {{0, 4, 1, 5}, {6, 2, 7, 3}, {1, 5, 0, 4}, {7, 3, 6, 2}};
 
 /// Three 5-bit channels at once; the top bit of each is added apart, so that no carry leaves a channel.
-LINE_STAGE std::uint32_t blend(Write write, std::uint32_t back, std::uint32_t front) {
+LINE_STAGE std::uint32_t blend(Blend how, std::uint32_t back, std::uint32_t front) {
   constexpr std::uint32_t top = 0x4210, low = 0x3def;
   const auto widen = [](std::uint32_t bits) { return (bits << 1) - (bits >> 4); };  // 10h -> 1Fh
   back &= 0x7fff;
-  if (write == Write::average) return (back & front) + (((back ^ front) & 0x7bde) >> 1);
-  if (write == Write::subtract) {
+  if (how == Blend::average) return (back & front) + (((back ^ front) & 0x7bde) >> 1);
+  if (how == Blend::subtract) {
     const std::uint32_t difference = ((back | top) - (front & low)) ^ (~(back ^ front) & top);
     const std::uint32_t borrows = (~back & front) | (~(back ^ front) & difference);
     return difference & ~widen(borrows & top);
   }
-  if (write == Write::add_quarter) front = front >> 2 & 0x1ce7;
+  if (how == Blend::add_quarter) front = front >> 2 & 0x1ce7;
   const std::uint32_t sum = ((back & low) + (front & low)) ^ ((back ^ front) & top);
   const std::uint32_t carries = (back & front) | (~sum & (back | front));
   return sum | widen(carries & top);
@@ -113,9 +114,9 @@ LINE_STAGE void draw_body(LineMode m, const LineJob& job, const Observer& observ
       const std::uint32_t pixel = channel(r) | channel(g) << 5 | channel(b) << 10;
       const std::size_t place = Vram::offset(column, row);
       const std::uint16_t back = job.pixels[place];
-      if (m.write == Write::opaque || (back & job.mask_test) == 0) {
-        const bool blends = m.write >= Write::average;
-        const std::uint32_t result = (blends ? blend(m.write, back, pixel) : pixel) | job.mask_set;
+      if (m.how == Blend::opaque || (back & job.mask_test) == 0) {
+        const bool blends = m.blend != Blend::opaque;
+        const std::uint32_t result = (blends ? blend(m.blend, back, pixel) : pixel) | job.mask_set;
         observer.note(place, back, result, pixel | job.mask_set, blends);
         job.pixels[place] = static_cast<std::uint16_t>(result);
       }
@@ -199,7 +200,7 @@ void draw_line(const Surface& surface, const Primitive& primitive) {
     job.step_c = {per_step.colour(b->r - a->r), per_step.colour(b->g - a->g), per_step.colour(b->b - a->b)};
   }
 
-  const LineMode mode{is_gouraud, state.dithers(), write_of(primitive)};
+  const LineMode mode{is_gouraud, state.dithers(), state.mask_test() != 0, blend_of(primitive)};
   if (surface.trace != nullptr) {
     draw_body(mode, job, Watcher{{surface.trace, surface.draw, 0}});
   } else {

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "ot/gp0.h"
+
 namespace gpu {
 
-enum class Texture : std::uint8_t { none, clut4, clut8, direct15 };
+using ot::Blend, ot::TexelFormat;
 
 enum class Shade : std::uint8_t {
   flat,     ///< one colour; of a texture: texel times colour
@@ -16,19 +18,9 @@ enum class Shade : std::uint8_t {
   raw,      ///< the texel as it is; textures only
 };
 
-/// How a pixel gets into VRAM; the first never reads what is there.
-enum class Write : std::uint8_t {
-  opaque,
-  masked,  ///< opaque, but pixels with bit 15 stay
-  average,
-  add,
-  subtract,
-  add_quarter,
-};
-
 /// The pixel's colour before it meets VRAM. Only combinations that the console can ask for are in `surfaces`.
 struct SurfaceMode {
-  Texture texture;
+  TexelFormat texture;
   Shade shade;
   bool dither;
   bool operator==(const SurfaceMode&) const = default;
@@ -36,16 +28,19 @@ struct SurfaceMode {
 
 struct Mode {
   SurfaceMode surface;
-  Write write;
-  bool depth;  ///< tested against the depth plane and stored there
+  Blend blend;
+  bool masked;  ///< pixels with bit 15 stay; asked of opaque kernels only, the others read the pixel anyway
+  bool depth;   ///< tested against the depth plane and stored there
 
   bool operator==(const Mode&) const = default;
+  [[nodiscard]] constexpr bool reads_target() const { return masked || blend != Blend::opaque; }
 
   static constexpr std::array<SurfaceMode, 18> surfaces = [] {
     std::array<SurfaceMode, 18> all{};
     std::size_t n = 0;
-    for (const Texture t : {Texture::none, Texture::clut4, Texture::clut8, Texture::direct15}) {
-      const bool textured = t != Texture::none;
+    for (const TexelFormat t :
+         {TexelFormat::none, TexelFormat::clut4, TexelFormat::clut8, TexelFormat::direct15}) {
+      const bool textured = t != TexelFormat::none;
       all[n++] = {t, Shade::flat, false};
       if (textured) all[n++] = {t, Shade::flat, true};
       all[n++] = {t, Shade::gouraud, false};
@@ -54,11 +49,13 @@ struct Mode {
     }
     return all;
   }();
-  static constexpr std::size_t writes = 6;
+  static constexpr std::size_t writes = 6;  ///< opaque, opaque and masked, blended in four ways
   static constexpr std::size_t count = surfaces.size() * writes * 2;
 
   static constexpr Mode at(std::size_t index) {
-    return {surfaces[index / 2 / writes], static_cast<Write>(index / 2 % writes), index % 2 != 0};
+    const std::size_t write = index / 2 % writes;
+    return {surfaces[index / 2 / writes], write < 2 ? Blend::opaque : static_cast<Blend>(write - 1),
+            write == 1, index % 2 != 0};
   }
 
   [[nodiscard]] constexpr std::size_t index() const {
@@ -69,7 +66,9 @@ struct Mode {
                               : surface.shade == Shade::raw
                                   ? 5 * texture + 2
                                   : 5 * texture - 2 + 2 * static_cast<std::size_t>(surface.shade) + dithered;
-    return (place * writes + static_cast<std::size_t>(write)) * 2 + static_cast<std::size_t>(depth);
+    const std::size_t write =
+        blend == Blend::opaque ? static_cast<std::size_t>(masked) : static_cast<std::size_t>(blend) + 1;
+    return (place * writes + write) * 2 + static_cast<std::size_t>(depth);
   }
 };
 

@@ -13,14 +13,6 @@
 
 namespace gpu {
 
-/// Which fragments of a polygon with depth are drawn. Opacity is a texel's matter: one
-/// polygon can have both kinds.
-enum class Pass : std::uint8_t {
-  console,           ///< all, untested: there is no z-buffer, or the primitive has no depth
-  opaque,            ///< those that let no light through; tested and stored
-  semi_transparent,  ///< the others; tested, not stored
-};
-
 /// What is drawn on. Pointers are borrowed for the call.
 struct Surface {
   Vram& vram;

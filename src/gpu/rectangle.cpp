@@ -22,7 +22,7 @@ Box drawn_box(const Primitive& primitive) {
 
 /// No gradients and nothing to read in VRAM: a block of one colour.
 bool is_plain_fill(const Surface& surface, const Primitive& primitive, const Mode& mode, const Box& box) {
-  return mode.surface.texture == Texture::none && mode.write == Write::opaque && surface.trace == nullptr &&
+  return mode.surface.texture == TexelFormat::none && !mode.reads_target() && surface.trace == nullptr &&
          primitive.state.skipped_rows == SkippedRows::none && box.bottom < Vram::height;
 }
 

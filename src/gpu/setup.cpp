@@ -49,14 +49,12 @@ bool samples_what_it_draws(const DrawState& state, const Box& drawn) {
   return (meets_columns(0) || meets_columns(Vram::width)) && (meets_rows(0) || meets_rows(Vram::height));
 }
 
-bool has_adjacent_texels(const Job& job, Texture texture) {
+bool has_adjacent_texels(const Job& job, TexelFormat texture) {
   constexpr std::uint32_t one = 1U << 24;
-  if (texture == Texture::none || job.texel.u.dx != one || job.texel.v.dx != 0) return false;
+  if (texture == TexelFormat::none || job.texel.u.dx != one || job.texel.v.dx != 0) return false;
   const TexturePage& page = job.page;
   const bool has_window = page.keep_u != 0xff || page.keep_v != 0xff || page.set_u != 0 || page.set_v != 0;
-  const int width =
-      page_width(static_cast<TexelFormat>(static_cast<int>(texture) - static_cast<int>(Texture::clut4)));
-  return !has_window && static_cast<int>(page.x) + width <= Vram::width;
+  return !has_window && static_cast<int>(page.x) + page_width(texture) <= Vram::width;
 }
 
 void run(const Surface& surface, const Mode& mode, const Job& job, std::span<const Span> spans,

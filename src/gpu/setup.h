@@ -26,30 +26,25 @@ struct SpanList {
   [[nodiscard]] std::span<const Span> all() const { return {spans.data(), count}; }
 };
 
-inline Write write_of(const Primitive& primitive) {
-  static_assert(static_cast<int>(Write::average) + static_cast<int>(Blend::add_quarter) ==
-                static_cast<int>(Write::add_quarter));
-  const auto blended = static_cast<int>(Write::average) + static_cast<int>(primitive.state.blend());
-  if (primitive.is_semi_transparent()) return static_cast<Write>(blended);
-  return primitive.state.mask_test() != 0 ? Write::masked : Write::opaque;
+inline Blend blend_of(const Primitive& primitive) {
+  return primitive.is_semi_transparent() ? primitive.state.blend() : Blend::opaque;
 }
 
 /// Mode of a polygon or rectangle; `dithers` says whether this kind of primitive may be dithered at all.
-/// Inline: returned from a call, the five bytes are written one by one and read as one word, and the
+/// Inline: returned from a call, its bytes are written one by one and read as one word, and the
 /// processor waits for that as long as a small rectangle takes to draw.
 inline Mode mode_of(const Primitive& primitive, bool dithers) {
   const bool is_textured = primitive.is_textured();
   const bool is_gouraud = primitive.kind == Kind::polygon && primitive.is_gouraud();
   const Shade shade = primitive.is_raw() ? Shade::raw : is_gouraud ? Shade::gouraud : Shade::flat;
-  const auto texture = static_cast<Texture>(static_cast<int>(primitive.state.texel_format()) + 1);
-  static_assert(static_cast<int>(Texture::clut4) == static_cast<int>(TexelFormat::clut4) + 1 &&
-                static_cast<int>(Texture::direct15) == static_cast<int>(TexelFormat::direct15) + 1);
+  const Blend blend = blend_of(primitive);
   return {
-      .surface = {.texture = is_textured ? texture : Texture::none,
+      .surface = {.texture = is_textured ? primitive.state.texel_format() : TexelFormat::none,
                   .shade = shade,
                   .dither = dithers && primitive.state.dithers() && shade != Shade::raw &&
                             (is_textured || shade == Shade::gouraud)},
-      .write = write_of(primitive),
+      .blend = blend,
+      .masked = blend == Blend::opaque && primitive.state.mask_test() != 0,
       .depth = false,
   };
 }
@@ -66,7 +61,7 @@ struct Box {
 bool samples_what_it_draws(const DrawState& state, const Box& drawn);
 
 /// Whether a row of pixels reads a row of texels, one by one: sprites, and polygons drawn like sprites.
-bool has_adjacent_texels(const Job& job, Texture texture);
+bool has_adjacent_texels(const Job& job, TexelFormat texture);
 
 /// Runs the kernel; or, where that is called for, the body that draws one pixel after
 /// the other or the watched one.

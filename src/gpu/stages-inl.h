@@ -150,11 +150,11 @@ STAGE V<D> texel_word(D d, Mode m, const Job& job, V<D> u, V<D> v) {
   const auto address = [&](V<D> column) {
     return hn::Or(row, hn::And(hn::Add(column, set(job.page.x)), set(Vram::width - 1)));
   };
-  if (m.surface.texture == Texture::clut4) {
+  if (m.surface.texture == TexelFormat::clut4) {
     const auto word = gather(d, job.pixels, address(hn::ShiftRight<2>(u)));
     return hn::And(shift_right(d, word, hn::ShiftLeft<2>(hn::And(u, set(3)))), set(15));
   }
-  if (m.surface.texture == Texture::clut8) {
+  if (m.surface.texture == TexelFormat::clut8) {
     const auto word = gather(d, job.pixels, address(hn::ShiftRight<1>(u)));
     return hn::And(shift_right(d, word, hn::ShiftLeft<3>(hn::And(u, set(1)))), set(255));
   }
@@ -166,7 +166,7 @@ template <class D>
 STAGE V<D> adjacent_word(D d, Mode m, const Job& job, std::uint32_t u, std::uint32_t v) {
   const std::uint16_t* row = job.pixels + (job.page.y + v) * Vram::width + job.page.x;
   constexpr std::size_t lanes = hn::MaxLanes(d);
-  if (m.surface.texture == Texture::clut4) {
+  if (m.surface.texture == TexelFormat::clut4) {
     // 16 nibbles from u on; an odd u drops one, which the next byte makes good.
     const auto* bytes = reinterpret_cast<const unsigned char*>(row) + (u >> 1);
     std::uint64_t nibbles = 0, next = 0;
@@ -184,7 +184,7 @@ STAGE V<D> adjacent_word(D d, Mode m, const Job& job, std::uint32_t u, std::uint
     }
     return hn::And(words, hn::Set(d, 15));
   }
-  if (m.surface.texture == Texture::clut8) {
+  if (m.surface.texture == TexelFormat::clut8) {
     const hn::Rebind<std::uint8_t, D> d8;
     return hn::PromoteTo(d, hn::LoadU(d8, reinterpret_cast<const unsigned char*>(row) + u));
   }
@@ -193,8 +193,8 @@ STAGE V<D> adjacent_word(D d, Mode m, const Job& job, std::uint32_t u, std::uint
 
 template <class D>
 STAGE V<D> through_palette(D d, Mode m, const Job& job, const Palette16<D>& palette, V<D> word) {
-  if (m.surface.texture == Texture::clut4) return Palette16<D>::at(palette, word);
-  if (m.surface.texture == Texture::clut8) return hn::And(gather(d, job.clut, word), hn::Set(d, 0xffff));
+  if (m.surface.texture == TexelFormat::clut4) return Palette16<D>::at(palette, word);
+  if (m.surface.texture == TexelFormat::clut8) return hn::And(gather(d, job.clut, word), hn::Set(d, 0xffff));
   return word;
 }
 
@@ -238,7 +238,7 @@ STAGE V<D> pack(D d, Mode m, Rgb<D> c, V<D> dither) {
     const auto add = [&](V<D> channel) { return hn::Max(hn::Add(channel, dither), hn::Zero(d)); };
     c = {add(c.r), add(c.g), add(c.b)};
   }
-  if (m.surface.dither || m.surface.texture != Texture::none) {
+  if (m.surface.dither || m.surface.texture != TexelFormat::none) {
     c = {hn::Min(c.r, top), hn::Min(c.g, top), hn::Min(c.b, top)};
   }
   const auto high5 = hn::Set(d, 0xf8);
@@ -275,15 +275,15 @@ STAGE T subtract_saturated(D16 d, T back, T front) {
 
 /// Bit 15 of the operands takes no part; that of the result is 0.
 template <class D16, class T = hn::Vec<D16>>
-STAGE T blend(D16 d, Write write, T back, T front) {
+STAGE T blend(D16 d, Blend how, T back, T front) {
   back = hn::And(back, hn::Set(d, 0x7fff));
   front = hn::And(front, hn::Set(d, 0x7fff));
-  if (write == Write::average) {
+  if (how == Blend::average) {
     return hn::Add(hn::And(back, front),
                    hn::ShiftRight<1>(hn::And(hn::Xor(back, front), hn::Set(d, 0x7bde))));
   }
-  if (write == Write::subtract) return subtract_saturated(d, back, front);
-  if (write == Write::add_quarter) front = hn::And(hn::ShiftRight<2>(front), hn::Set(d, 0x1ce7));
+  if (how == Blend::subtract) return subtract_saturated(d, back, front);
+  if (how == Blend::add_quarter) front = hn::And(hn::ShiftRight<2>(front), hn::Set(d, 0x1ce7));
   return add_saturated(d, back, front);
 }
 

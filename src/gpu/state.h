@@ -2,7 +2,6 @@
 // What the attribute commands E1h-E6h set and every drawing command reads: registers kept as they were
 // written, with one function per meaning. A snapshot is a copy of 28 bytes.
 
-#include <algorithm>
 #include <cstdint>
 
 #include "ot/gp0.h"
@@ -10,19 +9,10 @@
 namespace gpu {
 
 namespace gp0 = ot::gp0;
+using ot::Blend, ot::TexelFormat;
 
 /// Low 11 bits, sign-extended: -1024..1023. Every coordinate on the bus has this form.
 constexpr int sign_extend_11(std::uint32_t bits) { return ot::Field<0, 11>::get_signed(bits); }
-
-enum class TexelFormat : std::uint8_t { clut4, clut8, direct15 };
-
-/// Per 5-bit channel, B = VRAM, F = new.
-enum class Blend : std::uint8_t {
-  average,      ///< (B + F) >> 1
-  add,          ///< min(31, B + F)
-  subtract,     ///< max(0, B - F)
-  add_quarter,  ///< min(31, B + (F >> 2))
-};
 
 /// While an interlaced 480-line picture is shown, the rows of the field on screen may be left alone.
 enum class SkippedRows : std::uint8_t { none, even, odd };
@@ -38,10 +28,8 @@ struct DrawState {
 
   [[nodiscard]] int page_x() const { return 64 * number<gp0::draw_mode::PageX64>(draw_mode); }
   [[nodiscard]] int page_y() const { return 256 * number<gp0::draw_mode::PageY256>(draw_mode); }
-  [[nodiscard]] Blend blend() const { return static_cast<Blend>(gp0::draw_mode::Blend::get(draw_mode)); }
-  [[nodiscard]] TexelFormat texel_format() const {
-    return static_cast<TexelFormat>(std::min(gp0::draw_mode::Depth::get(draw_mode), 2U));
-  }
+  [[nodiscard]] Blend blend() const { return gp0::draw_mode::blend_of(draw_mode); }  ///< never opaque
+  [[nodiscard]] TexelFormat texel_format() const { return gp0::draw_mode::format_of(draw_mode); }
   [[nodiscard]] bool dithers() const { return gp0::draw_mode::Dither::get(draw_mode) != 0; }
   [[nodiscard]] bool draws_to_display() const { return gp0::draw_mode::DrawToDisplay::get(draw_mode) != 0; }
   [[nodiscard]] bool flips_x() const {

@@ -6,7 +6,9 @@
 namespace gpu {
 
 /// Halfwords of VRAM that hold 256 texels side by side, and how far the column wraps: 64, 128 or 256.
-constexpr int page_width(TexelFormat format) { return 64 << static_cast<int>(format); }
+constexpr int page_width(TexelFormat format) {
+  return format == TexelFormat::clut4 ? 64 : format == TexelFormat::clut8 ? 128 : 256;
+}
 
 /// Entries of the palette; 0 where texels are colours.
 constexpr int palette_size(TexelFormat format) {

@@ -61,7 +61,7 @@ class ClutCache {
   alignas(64) std::array<std::uint16_t, size> entries_{};
   std::uint32_t loads_ = 0;
   std::uint32_t tag_ = no_tag;  // CLUT halfword without bit 15
-  TexelFormat loaded_ = TexelFormat::clut4;
+  TexelFormat loaded_ = TexelFormat::none;
 };
 
 }  // namespace gpu

@@ -136,7 +136,7 @@ void put_gradients(std::array<Gradient*, n> out, const Three& t, const Vertex& c
 void put_gradients(Job& job, const Mode& mode, const Three& t, const Vertex& core, int area) {
   ColourGradients& c = job.shade;
   TextureGradients& x = job.texel;
-  const bool is_textured = mode.surface.texture != Texture::none;
+  const bool is_textured = mode.surface.texture != TexelFormat::none;
   if (mode.surface.shade == Shade::gouraud && is_textured) {
     put_gradients<5>({&c.r, &c.g, &c.b, &x.u, &x.v}, t, core, area,
                      {&Vertex::r, &Vertex::g, &Vertex::b, &Vertex::u, &Vertex::v});
@@ -177,7 +177,7 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
     upper = restrict_to(list, *surface.limits, primitive.state, corners[core], upper);
   if (list.count == 0) return;
   bool in_order = false;
-  if (mode.surface.texture != Texture::none) {
+  if (mode.surface.texture != TexelFormat::none) {
     in_order = samples_what_it_draws(primitive.state, drawn_box(primitive.state, corners, list));
     if (in_order) order_from_core(list, upper, sorted, corners[core]);
     job.page.side_by_side = !in_order && has_adjacent_texels(job, mode.surface.texture);
@@ -192,7 +192,10 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
 void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass) {
   Mode mode = mode_of(primitive, true);
   mode.depth = pass != Pass::console;
-  if (pass == Pass::opaque) mode.write = primitive.state.mask_test() != 0 ? Write::masked : Write::opaque;
+  if (pass == Pass::opaque) {
+    mode.blend = Blend::opaque;
+    mode.masked = primitive.state.mask_test() != 0;
+  }
   Job job;
   put_constants(job, surface, primitive);
   const auto& v = primitive.vertices;

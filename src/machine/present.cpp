@@ -45,7 +45,7 @@ base::Picture Presenter::show(const gpu::Gpu& gpu, const scene::Knobs& knobs) {
     if (knobs.antialias.kind != AntialiasKind::fxaa) return shown(gpu);
     return to_picture(canvas::fxaa(to_image(shown(gpu))));
   }
-  const auto image = canvas::resolve(*gpu.canvas(), static_cast<canvas::Reconstruction>(knobs.aa_filter));
+  const auto image = canvas::resolve(*gpu.canvas(), knobs.aa_filter);
   switch (knobs.antialias.kind) {
     case AntialiasKind::fxaa:
       return to_picture(canvas::fxaa(image));

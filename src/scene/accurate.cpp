@@ -60,9 +60,9 @@ std::optional<canvas::Fog> fog(const Knobs& knobs, const World& world, double un
 std::optional<gpu::DepthOptions> depth_options(const Knobs& knobs) {
   if (knobs.visibility != Visibility::zbuffer) return std::nullopt;
   gpu::DepthOptions options;
-  options.format = static_cast<gpu::DepthFormat>(knobs.depth);
-  options.mapping = static_cast<gpu::DepthMapping>(knobs.depth_mapping);
-  options.test = static_cast<gpu::DepthTest>(knobs.depth_test);
+  options.format = knobs.depth;
+  options.mapping = knobs.depth_mapping;
+  options.test = knobs.depth_test;
   options.reversed = knobs.depth_reversed;
   options.near_z = knobs.near_z;
   options.far_z = knobs.far_z;
@@ -75,7 +75,7 @@ std::optional<canvas::Options> canvas_options(const Knobs& knobs, const World& w
   o.scale = knobs.resolution;
   o.fraction_bits = fraction_bits(knobs.position);
   o.perspective = knobs.texture == TextureAddress::perspective;
-  o.filter = static_cast<canvas::Filter>(knobs.filter);
+  o.filter = knobs.filter;
   o.colour = knobs.colour == Colour::bits24 ? canvas::Colour::bits24 : canvas::Colour::bits15;
   o.fog = fog(knobs, world, units_per_world);
   choose_samples(knobs.antialias, o);

@@ -8,15 +8,15 @@
 #include <string_view>
 
 #include "base/result.h"
+#include "gpu/canvas/options.h"
+#include "gpu/depth.h"
 
 namespace scene {
 
 enum class Visibility : std::uint8_t { ot, sorted, bsp, zbuffer };
 enum class Key : std::uint8_t { average, nearest, farthest };
 enum class BucketOrder : std::uint8_t { lifo, fifo };
-enum class DepthFormat : std::uint8_t { bits16, bits24, bits32, float32 };
-enum class DepthMapping : std::uint8_t { hyperbolic, linear };
-enum class DepthTest : std::uint8_t { less, lequal };
+using gpu::DepthFormat, gpu::DepthMapping, gpu::DepthTest;
 enum class Transform : std::uint8_t { gte, float32, float64 };
 enum class Position : std::uint8_t {
   integer,
@@ -25,9 +25,9 @@ enum class Position : std::uint8_t {
   fine
 };  ///< fractions of a pixel: 1, 1/4, 1/16, 1/256
 enum class TextureAddress : std::uint8_t { affine, perspective };
-enum class Filter : std::uint8_t { nearest, bilinear, mipmap, mipmap_linear };
+using gpu::canvas::Filter;
 enum class Colour : std::uint8_t { bits15, bits15_dither, bits24 };
-enum class AaFilter : std::uint8_t { box, tent, gauss };
+using AaFilter = gpu::canvas::Reconstruction;
 enum class Fog : std::uint8_t { vertex, pixel };
 
 enum class AntialiasKind : std::uint8_t { off, ssaa, rotated, random, msaa, fxaa, taa };

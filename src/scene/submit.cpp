@@ -14,9 +14,8 @@ std::vector<PacketMaterial> packet_materials(std::span<const Material> materials
     p.raw = m.raw_texture && p.texture != nullptr;
     p.double_sided = m.double_sided;
     p.bias = m.bias;
-    const auto blend = p.semi_transparent ? static_cast<unsigned>(m.blend) - 1 : 0;
     p.texpage = static_cast<std::uint16_t>((p.texture != nullptr ? p.texture->texpage : 0) |
-                                           ot::gp0::draw_mode::Blend::put(blend));
+                                           ot::gp0::draw_mode::put(m.blend));
     out.push_back(p);
   }
   return out;

@@ -19,8 +19,8 @@ constexpr int band_cells = 32;                   // 256 rows
 constexpr std::size_t most_textures = 2048;      // more than there is room for, even as single texels
 
 int cells(int size, int cell) { return (size + cell - 1) / cell; }
-int texels_per_halfword(TexelDepth depth) {
-  return depth == TexelDepth::clut4 ? 4 : depth == TexelDepth::clut8 ? 2 : 1;
+int texels_per_halfword(TexelFormat depth) {
+  return depth == TexelFormat::clut4 ? 4 : depth == TexelFormat::clut8 ? 2 : 1;
 }
 bool power_of_two(int n) { return std::has_single_bit(static_cast<unsigned>(n)); }
 
@@ -93,8 +93,8 @@ class Tables {
 
 // A texture in the console's format, not yet in a place.
 struct Prepared {
-  int width = 1, height = 1;             // one period, texels
-  TexelDepth depth = TexelDepth::clut8;  // a picture of 16 colours or fewer needs no table of 256
+  int width = 1, height = 1;               // one period, texels
+  TexelFormat depth = TexelFormat::clut8;  // a picture of 16 colours or fewer needs no table of 256
   bool repeats = false;
   int halvings = 0;
   std::vector<std::uint16_t> values;   // indices, or halfwords if direct15
@@ -108,12 +108,12 @@ Prepared prepare(const Texture& texture, int halvings) {
   Prepared p{small.width, small.height, texture.depth, texture.repeats, halvings, {}, {}};
   p.values.reserve(small.pixels.size());
   for (const auto& pixel : small.pixels) p.values.push_back(texel_of(pixel));
-  if (p.depth == TexelDepth::direct15) return p;
-  Indexed indexed = quantise(p.values, p.depth == TexelDepth::clut4 ? 16 : 256);
-  if (indexed.palette.size() <= 16) p.depth = TexelDepth::clut4;
+  if (p.depth == TexelFormat::direct15) return p;
+  Indexed indexed = quantise(p.values, p.depth == TexelFormat::clut4 ? 16 : 256);
+  if (indexed.palette.size() <= 16) p.depth = TexelFormat::clut4;
   p.values.assign(indexed.index.begin(), indexed.index.end());
   p.palette = std::move(indexed.palette);
-  p.palette.resize(p.depth == TexelDepth::clut4 ? 16 : 256);
+  p.palette.resize(p.depth == TexelFormat::clut4 ? 16 : 256);
   return p;
 }
 
@@ -200,8 +200,8 @@ bool store(const Prepared& p, Grid& space, Tables& tables, TexturePack& pack, St
   stored.v = axis(p, p.height, y % 256);
   stored.window = window_word(stored.u, stored.v);
   stored.clut = ot::clut_of(static_cast<unsigned>(table.x), static_cast<unsigned>(table.y));
-  stored.texpage = ot::texpage_of(static_cast<unsigned>(x / 64 * 64), static_cast<unsigned>(y / 256 * 256), 0,
-                                  static_cast<unsigned>(p.depth));
+  stored.texpage = ot::texpage_of(static_cast<unsigned>(x / 64 * 64), static_cast<unsigned>(y / 256 * 256),
+                                  Blend::opaque, p.depth);
   return true;
 }
 

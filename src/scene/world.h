@@ -14,9 +14,12 @@
 #include <string>
 #include <vector>
 
+#include "ot/gp0.h"
 #include "scene/knobs.h"  // before `none`, which GCC would find shadowed by the `none` of one of its enumerations
 
 namespace scene {
+
+using ot::Blend, ot::TexelFormat;
 
 inline constexpr std::uint32_t none = 0xffffffff;  ///< "no index" wherever an index may be missing
 
@@ -30,19 +33,14 @@ struct Rgba8 {
   bool operator==(const Rgba8&) const = default;
 };
 
-enum class TexelDepth : std::uint8_t { clut4, clut8, direct15 };
-
 /// A picture of any size, rows from the top. Storing in VRAM scales and quantises it (scene/texture.h).
 struct Texture {
   std::string name;
   int width = 0, height = 0;
   std::vector<Rgba8> pixels;  ///< width * height
-  TexelDepth depth = TexelDepth::clut8;
+  TexelFormat depth = TexelFormat::clut8;
   bool repeats = false;  ///< texture coordinates outside 0..1 wrap; otherwise they are clamped
 };
-
-/// The console's semi-transparency modes (B = VRAM, F = new), and none.
-enum class Blend : std::uint8_t { opaque, average, add, subtract, add_quarter };
 
 struct Material {
   std::uint32_t texture = none;  ///< index into World::textures

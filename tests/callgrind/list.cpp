@@ -39,7 +39,8 @@ std::vector<std::uint32_t> make_list() {
       polygon.rgb[k] = {byte(), byte(), byte()};
       polygon.uv[k] = {byte(), byte()};
     }
-    polygon.texpage = ot::texpage_of(640, 0, i % 4, i % 3);
+    polygon.texpage =
+        ot::texpage_of(640, 0, static_cast<ot::Blend>(1 + i % 4), static_cast<ot::TexelFormat>(1 + i % 3));
     add(polygon);
     add(ot::Rectangle{
         .textured = i % 3 == 0, .xy = place(), .rgb = {byte(), byte(), byte()}, .width = 30, .height = 20});

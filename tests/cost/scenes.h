@@ -43,7 +43,7 @@ inline scene::Scene runway(bool fog, float half_width = 4, float near = 1.5F) {
   s.name = "runway";
   scene::World& w = s.world;
   w.units_per_world = 400;
-  scene::Texture board{"board", 64, 64, {}, scene::TexelDepth::clut4, false};
+  scene::Texture board{"board", 64, 64, {}, scene::TexelFormat::clut4, false};
   for (int y = 0; y < 64; ++y) {
     for (int x = 0; x < 64; ++x) {
       const auto c = static_cast<std::uint8_t>(((x / 4 + y / 4) & 1) != 0 ? 230 : 40);

@@ -11,19 +11,20 @@
 namespace {
 
 // Everything a kernel is specialised on; anything else a primitive asks for is data in Job.
-static_assert(std::is_same_v<decltype(gpu::SurfaceMode::texture), gpu::Texture>);
+static_assert(std::is_same_v<decltype(gpu::SurfaceMode::texture), ot::TexelFormat>);
 static_assert(std::is_same_v<decltype(gpu::SurfaceMode::shade), gpu::Shade>);
 static_assert(std::is_same_v<decltype(gpu::SurfaceMode::dither), bool>);
-static_assert(std::is_same_v<decltype(gpu::Mode::write), gpu::Write>);
+static_assert(std::is_same_v<decltype(gpu::Mode::blend), ot::Blend>);
+static_assert(std::is_same_v<decltype(gpu::Mode::masked), bool>);
 static_assert(std::is_same_v<decltype(gpu::Mode::depth), bool>);
-static_assert(sizeof(gpu::Mode) == 5, "an axis was added: say so here");
+static_assert(sizeof(gpu::Mode) == 6, "an axis was added: say so here");
 static_assert(gpu::Mode::count == 18 * 6 * 2 && gpu::Mode::count <= 400);
 
 // A kernel is told a job and spans: there is no way for a trace to reach it.
 static_assert(std::is_same_v<gpu::Kernel, void (*)(const gpu::Job&, std::span<const gpu::Span>)>);
 
 constexpr bool is_possible(const gpu::SurfaceMode& s) {
-  const bool is_textured = s.texture != gpu::Texture::none;
+  const bool is_textured = s.texture != ot::TexelFormat::none;
   if (s.shade == gpu::Shade::raw && (!is_textured || s.dither)) return false;
   return is_textured || s.shade == gpu::Shade::gouraud || !s.dither;
 }
@@ -42,11 +43,11 @@ TEST_SUITE("gpu") {
     for (int texture = 0; texture < 4; ++texture) {
       for (int shade = 0; shade < 3; ++shade) {
         for (const bool dither : {false, true}) {
-          const gpu::SurfaceMode s{static_cast<gpu::Texture>(texture), static_cast<gpu::Shade>(shade),
+          const gpu::SurfaceMode s{static_cast<ot::TexelFormat>(texture), static_cast<gpu::Shade>(shade),
                                    dither};
           if (!is_possible(s)) continue;
           ++possible;
-          CHECK(gpu::Mode::at(gpu::Mode{s, gpu::Write::opaque, false}.index()).surface == s);
+          CHECK(gpu::Mode::at(gpu::Mode{s, ot::Blend::opaque, false, false}.index()).surface == s);
         }
       }
     }

@@ -16,7 +16,7 @@ std::vector<std::uint32_t> packet(const exact::Triangle& t) {
                 static_cast<std::uint8_t>(t[i].x)};
     p.uv[i] = {static_cast<std::uint8_t>(t[i].y >> 7), static_cast<std::uint8_t>(t[i].z >> 5)};
   }
-  p.texpage = ot::texpage_of(640, 0, 1, 2);
+  p.texpage = ot::texpage_of(640, 0, ot::Blend::add, ot::TexelFormat::direct15);
   std::vector<std::uint32_t> words(ot::word_count(p));
   ot::encode(p, words);
   return words;

@@ -68,7 +68,7 @@ class Stage {
       depth.z[i++] = corner.z * unit;
     }
     p.rgb[0] = look.rgb;
-    p.texpage = ot::texpage_of(640, 0, 0, 2);
+    p.texpage = ot::texpage_of(640, 0, ot::Blend::average, ot::TexelFormat::direct15);
     send(depth);
     trace_.bucket = look.bucket;
     send(p);

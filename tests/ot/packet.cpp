@@ -147,8 +147,9 @@ TEST_SUITE("ot") {
   }
 
   TEST_CASE("state commands put their fields where the GPU reads them") {
-    CHECK(words_of(DrawMode{.texpage = texpage_of(640, 256, 2, 1), .dither = true, .flip_y = true}) ==
-          Words{0xe10022da});
+    CHECK(words_of(DrawMode{.texpage = texpage_of(640, 256, Blend::subtract, TexelFormat::clut8),
+                            .dither = true,
+                            .flip_y = true}) == Words{0xe10022da});
     CHECK(words_of(TextureWindow{.mask_x = 1, .mask_y = 1, .offset_x = 1}) == Words{0xe2000421});
     CHECK(words_of(DrawArea{}) == Words{0xe3000000, 0xe407ffff});
     CHECK(words_of(DrawOffset{.xy = {-1, 1}}) == Words{0xe5000fff});

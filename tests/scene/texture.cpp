@@ -6,12 +6,12 @@
 
 using scene::Rgba8;
 using scene::TexelAxis;
-using scene::TexelDepth;
+using scene::TexelFormat;
 using scene::Texture;
 
 namespace {
 
-Texture picture(int width, int height, TexelDepth depth = TexelDepth::clut8, bool repeats = false) {
+Texture picture(int width, int height, TexelFormat depth = TexelFormat::clut8, bool repeats = false) {
   Texture t;
   t.name = "picture";
   t.width = width;
@@ -92,7 +92,7 @@ TEST_SUITE("scene") {
 
   TEST_CASE("textures of all kinds lie beside the frame buffers of every display mode, none on another") {
     std::vector<Texture> all;
-    for (const auto depth : {TexelDepth::clut4, TexelDepth::clut8, TexelDepth::direct15})
+    for (const auto depth : {TexelFormat::clut4, TexelFormat::clut8, TexelFormat::direct15})
       for (const int size : {1, 5, 16, 40, 64, 100, 128})
         all.push_back(picture(size, size / 2 + 1, depth, size % 2 == 0));
     for (const int width : {256, 320, 368, 512, 640}) {
@@ -105,7 +105,7 @@ TEST_SUITE("scene") {
       "no texture passes texel 255 of its page, and windowed ones begin at a multiple of their period") {
     std::vector<Texture> all;
     for (int i = 0; i < 30; ++i)
-      all.push_back(picture(8 << i % 5, 8 << i % 4, static_cast<TexelDepth>(i % 3), true));
+      all.push_back(picture(8 << i % 5, 8 << i % 4, static_cast<TexelFormat>(1 + i % 3), true));
     const auto pack = scene::pack_textures(all, 320);
     for (const auto& t : pack.textures) {
       CHECK(t.u.origin + t.u.texels <= 256);
@@ -117,7 +117,7 @@ TEST_SUITE("scene") {
   }
 
   TEST_CASE("while textures do not fit the largest is halved, and both sizes are reported once") {
-    const std::vector<Texture> all(6, picture(256, 256, TexelDepth::direct15));
+    const std::vector<Texture> all(6, picture(256, 256, TexelFormat::direct15));
     const auto pack =
         scene::pack_textures(all, 640);  // 384 x 512 halfwords are free: room for two and a half
     check_layout(pack, 640);
@@ -137,7 +137,7 @@ TEST_SUITE("scene") {
 
   TEST_CASE("a window repeats a power of two: 32 texels at origin 96 give mask 28 and offset 12") {
     // u' = (u & ~(28 * 8)) | (12 & 28) * 8 = (u & 31) | 96
-    std::vector<Texture> all{picture(96, 8, TexelDepth::clut8), picture(32, 32, TexelDepth::clut8, true)};
+    std::vector<Texture> all{picture(96, 8, TexelFormat::clut8), picture(32, 32, TexelFormat::clut8, true)};
     const auto pack = scene::pack_textures(all, 320);
     const auto& t = pack.textures[1];
     const auto mask = t.window & 31;
@@ -164,7 +164,7 @@ TEST_SUITE("scene") {
   }
 
   TEST_CASE("packing is the same every time") {
-    const std::vector<Texture> all{picture(50, 60), picture(120, 7, TexelDepth::direct15), picture(64, 64)};
+    const std::vector<Texture> all{picture(50, 60), picture(120, 7, TexelFormat::direct15), picture(64, 64)};
     const auto a = scene::pack_textures(all, 320);
     const auto b = scene::pack_textures(all, 320);
     REQUIRE(a.blocks.size() == b.blocks.size());

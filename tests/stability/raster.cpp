@@ -38,7 +38,7 @@ ot::Polygon counting(const Corners& t) {
 /// A GPU that counts, drawing area and offset as given.
 std::unique_ptr<Gpu> counter(Point offset = {0, 0}) {
   auto gpu = std::make_unique<Gpu>();
-  send(*gpu, ot::DrawMode{.texpage = ot::texpage_of(0, 0, 1, 0)});
+  send(*gpu, ot::DrawMode{.texpage = ot::texpage_of(0, 0, ot::Blend::add, ot::TexelFormat::clut4)});
   send(*gpu, ot::DrawArea{});
   send(*gpu, ot::DrawOffset{{static_cast<std::int16_t>(offset.x), static_cast<std::int16_t>(offset.y)}});
   return gpu;
@@ -239,7 +239,8 @@ TEST_SUITE("stability") {
         const auto before = std::make_unique<gpu::Vram>(gpu->vram());
         ot::Polygon p;
         p.quad = p.textured = p.raw = true;
-        p.texpage = ot::texpage_of(static_cast<unsigned>(page), static_cast<unsigned>(y_page), 0, 2);
+        p.texpage = ot::texpage_of(static_cast<unsigned>(page), static_cast<unsigned>(y_page),
+                                   ot::Blend::average, ot::TexelFormat::direct15);
         p.xy = {ot::Xy{300, 100}, {555, 100}, {300, 355}, {555, 355}};
         p.uv = {ot::Uv{0, 0}, {255, 0}, {0, 255}, {255, 255}};
         send(*gpu, p);
@@ -263,10 +264,11 @@ TEST_SUITE("stability") {
                    "steps",
                    0};
     for (unsigned mode = 0; mode < 4; ++mode) {
+      const auto blend = static_cast<ot::Blend>(1 + mode);
       for (int colour = 0; colour < 32; ++colour) {
         auto gpu = std::make_unique<Gpu>();
         send(*gpu, ot::DrawArea{});
-        send(*gpu, ot::DrawMode{.texpage = ot::texpage_of(0, 0, mode, 0)});
+        send(*gpu, ot::DrawMode{.texpage = ot::texpage_of(0, 0, blend, ot::TexelFormat::clut4)});
         for (int b = 0; b < 32; ++b) gpu->vram().at(b, 0) = static_cast<std::uint16_t>(b * 0x421);
         const auto level = static_cast<std::uint8_t>(colour * 8);
         ot::Rectangle layer;

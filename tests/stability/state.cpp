@@ -44,7 +44,8 @@ TEST_SUITE("stability") {
                   0};
     auto gpu = std::make_unique<Gpu>();
     send(*gpu, ot::DrawArea{});
-    send(*gpu, ot::DrawMode{.texpage = ot::texpage_of(512, 0, 0, 2)});
+    send(*gpu,
+         ot::DrawMode{.texpage = ot::texpage_of(512, 0, ot::Blend::average, ot::TexelFormat::direct15)});
     for (int v = 0; v < 256; ++v) {
       for (int u = 0; u < 256; ++u) gpu->vram().at(512 + u, v) = static_cast<std::uint16_t>(u | v << 8);
     }
@@ -98,7 +99,8 @@ TEST_SUITE("stability") {
       for (const int offset_y : offsets) {
         const auto gpu = std::make_unique<Gpu>();
         send(*gpu, ot::DrawArea{});
-        send(*gpu, ot::DrawMode{.texpage = ot::texpage_of(0, 0, 1, 0)});  // B + F
+        send(*gpu,
+             ot::DrawMode{.texpage = ot::texpage_of(0, 0, ot::Blend::add, ot::TexelFormat::clut4)});  // B + F
         send(*gpu, ot::DrawOffset{xy(offset_x, offset_y)});
         std::ranges::fill(expected, 0);
         for (const int x : places) {

@@ -27,13 +27,10 @@ constexpr std::uint16_t to_16_bits(Pixel p) {
                                     ((p & mask_bit) != 0 ? 0x8000U : 0U));
 }
 
-enum class Texturing : std::uint8_t { none, clut4, clut8, direct15 };
-enum class Blending : std::uint8_t { opaque, average, add, subtract, add_quarter };
-
 /// What the accurate kernels are specialised on. Everything else is a branch per span.
 struct Mode {
-  Texturing texture = Texturing::none;
-  Blending blend = Blending::opaque;
+  TexelFormat texture = TexelFormat::none;
+  Blend blend = Blend::opaque;
   bool depth = false;
   bool trace = false;
 
@@ -45,15 +42,8 @@ struct Mode {
            (trace ? 1U : 0U);
   }
   static constexpr Mode at(std::size_t i) {
-    return {static_cast<Texturing>(i / 20), static_cast<Blending>(i / 4 % 5), i / 2 % 2 != 0, i % 2 != 0};
+    return {static_cast<TexelFormat>(i / 20), static_cast<Blend>(i / 4 % 5), i / 2 % 2 != 0, i % 2 != 0};
   }
-};
-
-/// Which fragments of a primitive are drawn, and what happens to depth.
-enum class Pass : std::uint8_t {
-  all,               ///< no z-buffer, or a primitive without depth
-  opaque,            ///< z-buffer, first pass: test and write
-  semi_transparent,  ///< z-buffer, second pass: test only
 };
 
 /// Where a watched canvas notes its writes, and where in VRAM its first pixel stands for.
@@ -135,7 +125,7 @@ struct Paint {
   bool mask_test = false;
   Pixel mask_set = 0;         ///< 0 or mask_bit
   Pixel quantise = 0xf8f8f8;  ///< or ffffff in 24-bit colour
-  Pass pass = Pass::all;
+  Pass pass = Pass::console;
   const DepthCode* depth_code = nullptr;
   const FogRamp* fog = nullptr;
   int phase_x = 0, phase_y = 0;  ///< of the dither pattern: the canvas pixel 0, 0 in VRAM, times the scale

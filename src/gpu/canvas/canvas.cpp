@@ -172,7 +172,7 @@ Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* c
   Paint paint;
   paint.mode.depth = deep && options_.depth.has_value();
   paint.mode.trace = options_.trace;
-  if (p.is_semi_transparent()) paint.mode.blend = static_cast<Blending>(1 + static_cast<int>(state.blend()));
+  if (p.is_semi_transparent()) paint.mode.blend = state.blend();
   paint.raw = p.is_raw();
   paint.gouraud = is_polygon && p.is_gouraud();
   paint.perspective = deep && options_.perspective && (p.is_textured() || p.is_gouraud());
@@ -181,14 +181,14 @@ Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* c
   paint.mask_test = state.mask_test() != 0;
   paint.mask_set = state.mask_set() != 0 ? mask_bit : 0;
   paint.quantise = options_.colour == Colour::bits15 ? 0xf8f8f8 : 0xffffff;
-  paint.pass = paint.mode.depth ? Pass::opaque : Pass::all;
+  paint.pass = paint.mode.depth ? Pass::opaque : Pass::console;
   paint.depth_code = paint.mode.depth ? &depth_code_ : nullptr;
   paint.fog = deep && options_.fog ? &fog_ : nullptr;
   paint.phase_x = grid_.x * options_.scale;
   paint.phase_y = grid_.y * options_.scale;
   paint.id = id;
   if (!p.is_textured()) return paint;
-  paint.mode.texture = static_cast<Texturing>(1 + static_cast<int>(state.texel_format()));
+  paint.mode.texture = state.texel_format();
   paint.texture = {&vram,
                    clut,
                    state.page_x(),

@@ -102,11 +102,11 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
   for (std::size_t i = 0; i < static_cast<std::size_t>(run.count); ++i) {
     if (f.alive[i] == 0) continue;
     const bool is_lost = is_rejected<M>(rejected, i);
-    constexpr bool textured = M.texture != Texturing::none;
+    constexpr bool textured = M.texture != TexelFormat::none;
     const Pixel texel = textured ? f.texel[i] : texel_solid | texel_semi;
     if ((texel & texel_solid) == 0) continue;
-    const bool semi = M.blend != Blending::opaque && (texel & texel_semi) != 0;
-    if (paint.pass != Pass::all && semi != (paint.pass == Pass::semi_transparent)) continue;
+    const bool semi = M.blend != Blend::opaque && (texel & texel_semi) != 0;
+    if (paint.pass != Pass::console && semi != (paint.pass == Pass::semi_transparent)) continue;
     const Pixel mask = paint.mask_set | (textured && (texel & texel_semi) != 0 ? mask_bit : 0);
     for (std::size_t s = 0; s < samples; ++s) {
       if ((f.alive[i] >> s & 1) == 0) continue;
@@ -146,9 +146,10 @@ void write(const Target& target, const Paint& paint, const Run& run, const Fragm
 }
 
 /// Bytes that one texel is made of.
-template <Texturing T>
+template <TexelFormat T>
 constexpr std::uint64_t bytes_per_texel(Filter filter) {
-  constexpr std::uint64_t fetch = T == Texturing::direct15 ? 2 : 4;  // a halfword of VRAM, one of the palette
+  constexpr std::uint64_t fetch =
+      T == TexelFormat::direct15 ? 2 : 4;  // a halfword of VRAM, one of the palette
   constexpr std::uint64_t taps = 4;
   switch (filter) {
     case Filter::nearest:
@@ -186,7 +187,7 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   }
   counters.shaded += static_cast<std::uint64_t>(run.count);
 
-  constexpr bool textured = M.texture != Texturing::none;
+  constexpr bool textured = M.texture != TexelFormat::none;
   const Positions positions(target, planes, run);
   std::array<double, run_length> z;
   if (paint.perspective) interpolate_z(planes, positions, z);

@@ -41,13 +41,13 @@ constexpr bool overlap(const Area& a, const Area& b) {
 Pixel fetch(const TextureView& view, TexelFormat format, int u, int v) {
   switch (format) {
     case TexelFormat::clut4:
-      return fetch_texel<Texturing::clut4>(view, u, v);
+      return fetch_texel<TexelFormat::clut4>(view, u, v);
     case TexelFormat::clut8:
-      return fetch_texel<Texturing::clut8>(view, u, v);
-    case TexelFormat::direct15:
+      return fetch_texel<TexelFormat::clut8>(view, u, v);
+    default:
       break;
   }
-  return fetch_texel<Texturing::direct15>(view, u, v);
+  return fetch_texel<TexelFormat::direct15>(view, u, v);
 }
 
 MipChain::MipChain(const TextureView& view, TexelFormat format) {

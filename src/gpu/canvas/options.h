@@ -19,6 +19,13 @@ enum class Filter : std::uint8_t {
   mipmap_linear,  ///< bilinear inside two levels, mixed
 };
 
+/// How samples become pixels.
+enum class Reconstruction : std::uint8_t {
+  box,    ///< the pixel's own samples, all alike
+  tent,   ///< falls to 0 one pixel away: samples of the eight neighbours count as well
+  gauss,  ///< standard deviation half a pixel, cut off at 1.5 pixels
+};
+
 enum class Colour : std::uint8_t {
   bits15,  ///< 5 bits a channel; dithered where the draw state says so
   bits24,  ///< 8 bits a channel, never dithered

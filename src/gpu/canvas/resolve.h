@@ -12,12 +12,6 @@
 
 namespace gpu::canvas {
 
-enum class Reconstruction : std::uint8_t {
-  box,    ///< the pixel's own samples, all alike
-  tent,   ///< falls to 0 one pixel away: samples of the eight neighbours count as well
-  gauss,  ///< standard deviation half a pixel, cut off at 1.5 pixels
-};
-
 /// Weight of one sample of the pixel (dx, dy) away, dx, dy in -1..1, in 65536ths; all
 /// weights of a filter sum to 65536.
 struct Tap {

@@ -68,7 +68,7 @@ Planes make_planes(const Grid& grid, const Triangle& triangle, const std::array<
     inverse = {inverse_depth(*triangle[0]), inverse_depth(*triangle[1]), inverse_depth(*triangle[2])};
     planes.inverse_z = real_plane(inverse, core, corners, real_area);
   }
-  const bool textured = paint.mode.texture != Texturing::none;
+  const bool textured = paint.mode.texture != TexelFormat::none;
   for (std::size_t a = 0; a < 5; ++a) {
     const bool is_colour = a < 3;
     const std::array<int, 3> values{f[0][a], f[1][a], f[2][a]};

@@ -165,7 +165,7 @@ inline void choose_levels(const Paint& paint, const Planes& planes, const Positi
 }
 
 /// Texels at f.u, f.v. One loop per filter: the choice is made once per run.
-template <Texturing T>
+template <TexelFormat T>
 inline void fetch_texels(const Paint& paint, int count, Fragments& f) {
   const auto each = [&](auto&& texel_at) {
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
@@ -239,13 +239,13 @@ constexpr Pixel add_saturated(Pixel a, Pixel b) {
 
 /// B = canvas, F = new, three bytes each. With `quantise` f8f8f8 these are the console's formulas on five
 /// bits, to the bit; with ffffff the same formulas on eight. [reference 6.5]
-template <Blending mode>
+template <Blend mode>
 constexpr Pixel blend(Pixel back, Pixel front, Pixel quantise) {
   const Pixel b = back & 0xffffffU;
-  if constexpr (mode == Blending::average) return ((b & front) + (((b ^ front) & 0xfefefeU) >> 1)) & quantise;
-  if constexpr (mode == Blending::add) return add_saturated(b, front) & quantise;
-  if constexpr (mode == Blending::subtract) return ~add_saturated(~b & 0xffffffU, front) & quantise;
-  if constexpr (mode == Blending::add_quarter)
+  if constexpr (mode == Blend::average) return ((b & front) + (((b ^ front) & 0xfefefeU) >> 1)) & quantise;
+  if constexpr (mode == Blend::add) return add_saturated(b, front) & quantise;
+  if constexpr (mode == Blend::subtract) return ~add_saturated(~b & 0xffffffU, front) & quantise;
+  if constexpr (mode == Blend::add_quarter)
     return add_saturated(b, (front >> 2 & 0x3f3f3fU) & quantise) & quantise;
   return front;
 }

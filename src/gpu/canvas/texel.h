@@ -23,15 +23,15 @@ constexpr Pixel widen(std::uint16_t pixel, bool expand) {
 }
 
 /// u, v: 0..255. A transparent texel (0000h) is 0.
-template <Texturing T>
+template <TexelFormat T>
 inline Pixel fetch_texel(const TextureView& view, int u, int v) {
   const int su = (u & view.keep_u) | view.set_u;
   const int sv = (v & view.keep_v) | view.set_v;
   const int y = view.page_y + sv;
   std::uint16_t texel = 0;
-  if constexpr (T == Texturing::clut4) {
+  if constexpr (T == TexelFormat::clut4) {
     texel = view.clut[view.vram->at(view.page_x + (su >> 2), y) >> 4 * (su & 3) & 15];
-  } else if constexpr (T == Texturing::clut8) {
+  } else if constexpr (T == TexelFormat::clut8) {
     texel = view.clut[view.vram->at(view.page_x + (su >> 1), y) >> 8 * (su & 1) & 255];
   } else {
     texel = view.vram->at(view.page_x + su, y);
@@ -41,7 +41,7 @@ inline Pixel fetch_texel(const TextureView& view, int u, int v) {
 }
 
 /// Nearest texel, with the console's eight-bit wrap.
-template <Texturing T>
+template <TexelFormat T>
 inline Pixel sample_nearest(const TextureView& view, int u, int v) {
   return fetch_texel<T>(view, (u + 128) >> 8 & 255, (v + 128) >> 8 & 255);
 }
@@ -66,7 +66,7 @@ inline Pixel bilinear(const std::array<Pixel, 4>& taps, unsigned fu, unsigned fv
   return mix(top, bottom, fv) | (nearest & (texel_solid | texel_semi));
 }
 
-template <Texturing T>
+template <TexelFormat T>
 inline Pixel sample_bilinear(const TextureView& view, const TexelBox& box, int u, int v) {
   const int u0 = std::clamp(u >> 8, box.u_min, box.u_max);
   const int v0 = std::clamp(v >> 8, box.v_min, box.v_max);
