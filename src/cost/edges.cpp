@@ -117,10 +117,10 @@ double edge_error(const scene::Knobs& given) {
     n += ot::encode(ot::DrawOffset{}, std::span(area_and_clear).subspan(n));
     ot::encode(ot::Fill{.width = side, .height = side}, std::span(area_and_clear).subspan(n));
     for (int i = 0; i <= machine::Presenter::frames_before(knobs); ++i) {
-      gpu.canvas()->begin_frame(0, 0);
+      gpu.begin_frame();
       gpu.gp0(area_and_clear);
       gpu.gp0(words(t));
-      gpu.canvas()->end_frame();
+      gpu.end_frame();
       shown = shrunk(presenter.show(gpu, knobs), knobs.resolution);
     }
     for (int y = 0; y < side; ++y) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "gpu/rules.h"
 #include "ot/gp0.h"
 #include "ot/packet.h"
 
@@ -28,10 +29,6 @@ bool is_gouraud(const Primitive& p) {
   return (p.kind == gpu::Kind::polygon || p.kind == gpu::Kind::line) && p.is_gouraud() && !p.is_raw();
 }
 bool is_modulated(const Primitive& p) { return p.is_textured() && !p.is_raw(); }
-bool dithers(const Primitive& p) {
-  const bool shaded = p.kind == gpu::Kind::polygon && !p.is_raw() && (p.is_gouraud() || p.is_textured());
-  return p.state.dithers() && (p.kind == gpu::Kind::line || shaded);
-}
 bool is_windowed(const Primitive& p) {
   return p.is_textured() && (p.state.texture_window & gp0::texture_window::masks) != 0;
 }
@@ -64,7 +61,7 @@ constexpr std::array table{
     PacketEffect{"blend B+F", blends<Blend::add>},
     PacketEffect{"blend B-F", blends<Blend::subtract>},
     PacketEffect{"blend B+F/4", blends<Blend::add_quarter>},
-    PacketEffect{"dither", dithers},
+    PacketEffect{"dither", gpu::is_dithered},
     PacketEffect{"texture window", is_windowed},
     PacketEffect{"set mask bit", sets_mask},
     PacketEffect{"test mask bit", tests_mask},

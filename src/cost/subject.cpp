@@ -135,10 +135,8 @@ base::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<co
   gpu_->reset_counters();
   if (gpu_->canvas() != nullptr) gpu_->canvas()->reset_counters();
   const double start = now_ms();
-  gpu_->begin_frame();
-  if (gpu_->canvas() != nullptr) gpu_->canvas()->begin_frame(0, buffer_y_);
+  gpu_->begin_frame(0, buffer_y_);
   gpu_->gp0(words);
-  if (gpu_->canvas() != nullptr) gpu_->canvas()->end_frame();
   gpu_->end_frame();
   return now_ms() - start;
 }

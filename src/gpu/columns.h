@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <span>
 
+#include "gpu/rules.h"
+
 namespace gpu {
 
 struct Point {
@@ -25,11 +27,10 @@ constexpr std::int32_t doubled_area(const Corners& c) {
   return (c[1].x - c[0].x) * (c[2].y - c[1].y) - (c[2].x - c[1].x) * (c[1].y - c[0].y);
 }
 
-/// No two corners may lie more than 1023 columns or 511 rows apart, or the triangle is not drawn at all.
 constexpr bool is_too_large(const Corners& c) {
   const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
   const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
-  return right - left > 1023 || bottom - top > 511;
+  return is_too_large(right - left, bottom - top);
 }
 
 /// The corners from top to bottom; of equal rows the earlier comes first.

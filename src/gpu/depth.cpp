@@ -49,6 +49,8 @@ DepthConstants::DepthConstants(const DepthOptions& o)
       zero(o.reversed ? o.far_z : o.near_z),
       range(o.far_z - o.near_z),
       scale(depth_scale(o.format)),
+      at_infinity(factor / range * scale),
+      per_inverse_z(-factor * zero / range * scale),
       equal_wins(o.test == DepthTest::lequal),
       is_linear(o.mapping == DepthMapping::linear),
       is_float(o.format == DepthFormat::float32),

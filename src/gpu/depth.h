@@ -2,6 +2,8 @@
 // Depth formats of the z-buffer: what a view-space depth becomes when it is stored, and the plane of stored
 // depths. The console has none of this; see design.md, "z-buffer", for the annotation words that carry z.
 
+#include <algorithm>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -43,12 +45,29 @@ double depth_scale(DepthFormat format);
 /// Example: near 10, far 1000, bits32, hyperbolic: 20 -> 2169175402.
 std::uint32_t stored_depth(const DepthOptions& options, double z);
 
-/// What the options come to for every triangle, computed once.
+/// What the options come to, computed once. Depth is made from a quantity that is affine on the screen: of
+/// hyperbolic depth that depth itself, 0..scale; of linear depth 1/z.
 struct DepthConstants {
   explicit DepthConstants(const DepthOptions& options);
 
-  // The affine quantity of hyperbolic depth: factor * (z - zero) / (z * range) * scale.
-  double factor, zero, range, scale;
+  /// From 1/z; of a vertex, whose z is known, affine_quantity (depth_setup.cpp) loses less near 0.
+  [[nodiscard]] double quantity(double inverse_z) const {
+    return is_linear ? inverse_z : at_infinity + per_inverse_z * inverse_z;
+  }
+  /// The stored depth of a quantity. One outside the range, NaN included, reads as an end of it.
+  [[nodiscard]] std::uint32_t stored(double quantity) const {
+    double value = quantity > low ? (quantity < high ? quantity : high) : low;
+    if (is_linear) value = std::clamp(1 / value * linear_scale + linear_offset, 0.0, scale);
+    if (is_float) return std::bit_cast<std::uint32_t>(static_cast<float>(value));
+    return static_cast<std::uint32_t>(value + 0.5);
+  }
+  [[nodiscard]] std::uint32_t key(std::uint32_t stored_depth) const;
+  [[nodiscard]] bool wins(std::uint32_t key, std::uint32_t old) const {
+    return key < old || (equal_wins && key == old);
+  }
+
+  // Hyperbolic quantity: factor * (z - zero) / (z * range) * scale, which is at_infinity + per_inverse_z / z.
+  double factor, zero, range, scale, at_infinity, per_inverse_z;
   /// Vertices whose depth is stepped in fixed point: 20.12, both inclusive; none where nearest > farthest.
   std::uint32_t nearest = 1, farthest = 0;
   double low, high;                    ///< the affine quantity between near and far
@@ -94,6 +113,10 @@ class DepthPlane {
   DepthConstants constants_;
   std::vector<std::uint32_t, LineAllocator<std::uint32_t>> keys_;
 };
+
+inline std::uint32_t DepthConstants::key(std::uint32_t stored_depth) const {
+  return std::min((stored_depth ^ flip) + add, DepthPlane::farthest);
+}
 
 /// The key of a stored depth, and the stored depth that a key reads as; that of `empty` is far.
 std::uint32_t depth_key(const DepthOptions& options, std::uint32_t stored);

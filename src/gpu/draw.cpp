@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
 #include "gpu/raster.h"
 #include "ot/gp0.h"
@@ -56,12 +57,23 @@ void Gpu::polygon(const std::uint32_t* words) {
   take_depth();
   begin_command();
   note(Kind::polygon);
-  if (canvas_ != nullptr && draw_on_canvas()) return;
-  if (depth_) {
+  if (tests_depth()) {
     draw_with_depth();
   } else {
-    draw_polygon(surface(), p, Pass::console);
+    draw_either(surface(), p, Pass::console);
   }
+}
+
+/// Whether the target of the polygon just decoded has a z-buffer.
+bool Gpu::tests_depth() const {
+  if (canvas_ != nullptr && canvas_->covers(current_.state)) return canvas_->options().depth.has_value();
+  return depth_ != nullptr;
+}
+
+/// On the canvas if the drawing area touches it, else in VRAM.
+void Gpu::draw_either(const Surface& target, const Primitive& polygon, Pass pass) {
+  if (canvas_ != nullptr && draw_on_canvas(target, polygon, pass)) return;
+  draw_polygon(target, polygon, pass);
 }
 
 /// Of an E1h word or a page halfword what may be stored.
@@ -98,7 +110,7 @@ void Gpu::rectangle(const std::uint32_t* words) {
   p.height = size != 0 ? sizes[size] : static_cast<int>(gp0::rectangle::Height::get(*at));
   begin_command();
   note(Kind::rectangle);
-  if (canvas_ != nullptr && draw_on_canvas()) return;
+  if (canvas_ != nullptr && draw_on_canvas(surface(), p, Pass::console)) return;
   draw_rectangle(surface(), p);
 }
 
@@ -147,7 +159,7 @@ const std::uint32_t* Gpu::continue_polyline(const std::uint32_t* at, const std::
 
 void Gpu::line_segment() {
   note(Kind::line);
-  if (canvas_ != nullptr && draw_on_canvas()) return;
+  if (canvas_ != nullptr && draw_on_canvas(surface(), current_, Pass::console)) return;
   draw_line(surface(), current_);
 }
 

@@ -17,9 +17,10 @@ void Gpu::set_depth(const std::optional<DepthOptions>& options) {
   queue_ = nullptr;
 }
 
-void Gpu::begin_frame() {
+void Gpu::begin_frame(int x, int y) {
   next_command_ = 0;
   frame_ = {};
+  if (canvas_) canvas_->begin_frame(x, y);
   if (depth_) depth_->clear();
   if (queue_) queue_->clear();
 }
@@ -34,10 +35,10 @@ void Gpu::draw_with_depth() {
   const Primitive& p = current_;
   if (!p.has_depth) {
     if (frame_.polygons_without_depth++ == 0) frame_.first_without_depth = p.command_number;
-    draw_polygon(surface(), p, Pass::console);
+    draw_either(surface(), p, Pass::console);
     return;
   }
-  if (!p.is_semi_transparent() || p.is_textured()) draw_polygon(surface(), p, Pass::opaque);
+  if (!p.is_semi_transparent() || p.is_textured()) draw_either(surface(), p, Pass::opaque);
   if (!p.is_semi_transparent()) return;
   if (!queue_) queue_ = std::make_unique<DepthQueue>();
   queue_->add(p, clut_, current_draw());
@@ -53,7 +54,7 @@ void Gpu::draw_queue() {
     Surface target = surface();
     target.clut = queue_->palette(entry);
     target.draw = entry.draw;
-    draw_polygon(target, entry.primitive, Pass::semi_transparent);
+    draw_either(target, entry.primitive, Pass::semi_transparent);
   }
   queue_->clear();
 }

@@ -30,7 +30,7 @@ class Canvas;
 struct Options;
 }  // namespace canvas
 
-/// What a z-buffered frame could not do.
+/// What became of the polygons of a z-buffered frame.
 struct FrameEnd {
   std::uint32_t polygons_without_depth = 0;  ///< drawn in list order, neither tested nor stored
   std::uint32_t first_without_depth = 0;     ///< command number of the first, if there is any
@@ -75,15 +75,16 @@ class Gpu {
 
   // --- z-buffer ---
 
-  /// Sets the depth stage; nothing is the console. Allocates or frees the depth plane; drops what is queued.
+  /// Sets the depth stage of VRAM; nothing is the console. Allocates or frees the depth plane; drops what is
+  /// queued.
   void set_depth(const std::optional<DepthOptions>& options);
   /// Depth (20.12) of polygons that bring none; nothing: they are counted as polygons without depth. The
   /// caller may change it before every node it feeds.
   void set_default_depth(std::optional<std::uint32_t> z) { default_depth_ = z; }
-  /// z-buffer: empties the depth plane, forgets the queue. Otherwise does nothing
-  /// but restart command numbers.
-  void begin_frame();
-  /// z-buffer: draws the queued semi-transparent polygons, far to near.
+  /// Restarts command numbers. z-buffer: empties depths, forgets the queue. A canvas is placed over the
+  /// frame, whose top left pixel is x, y of VRAM.
+  void begin_frame(int x = 0, int y = 0);
+  /// z-buffer, of VRAM or of a canvas: draws the queued semi-transparent polygons, far to near.
   FrameEnd end_frame();
   /// nullptr without set_depth.
   [[nodiscard]] const DepthPlane* depth_plane() const { return depth_.get(); }
@@ -91,8 +92,8 @@ class Gpu {
   // --- accurate target ---
 
   /// Sets the target beside VRAM; nothing is the console. Primitives whose drawing area touches the canvas
-  /// are drawn there instead of in VRAM; fills, copies and uploads act on both. Whoever draws a frame begins
-  /// and ends it on the canvas too. Allocates unless the options are those it has.
+  /// are drawn there instead of in VRAM; fills, copies and uploads act on both. Allocates, and drops what is
+  /// queued, unless the options are those it has.
   void set_canvas(const std::optional<canvas::Options>& options);
   /// nullptr without set_canvas.
   [[nodiscard]] canvas::Canvas* canvas() { return canvas_.get(); }
@@ -127,6 +128,8 @@ class Gpu {
 
   // draw.cpp: one function per kind of command
   void polygon(const std::uint32_t* words);
+  [[nodiscard]] bool tests_depth() const;
+  void draw_either(const Surface& surface, const Primitive& polygon, Pass pass);
   void rectangle(const std::uint32_t* words);
   void line(const std::uint32_t* words);
   void line_segment();
@@ -143,7 +146,7 @@ class Gpu {
   [[nodiscard]] Surface surface();
   [[nodiscard]] std::uint32_t current_draw() const;
   // canvas/port.cpp
-  [[nodiscard]] bool draw_on_canvas();
+  [[nodiscard]] bool draw_on_canvas(const Surface& surface, const Primitive& primitive, Pass pass);
   void transfer_to_canvas();
 
   // frame.cpp

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdlib>
 #include <utility>
 
 #include "gpu/raster.h"
-#include "gpu/setup.h"
+#include "gpu/rules.h"
 #include "gpu/watch.h"
 
 #if defined(__GNUC__) && defined(NDEBUG)
@@ -39,9 +37,7 @@ struct LineMode {
 
 struct LineJob {
   std::uint16_t* pixels;
-  std::int64_t x, y, step_x, step_y;      // 32.32
-  std::array<std::int32_t, 3> c, step_c;  // 8.12
-  int steps;
+  LinePath path;
   bool may_leave_area;
   const DrawState* state;
   std::uint16_t mask_set, mask_test;
@@ -59,7 +55,13 @@ constexpr auto levels = [] {
   return table;
 }();
 
-constexpr std::uint8_t dither_rows[4][4] = {{0, 4, 1, 5}, {6, 2, 7, 3}, {1, 5, 0, 4}, {7, 3, 6, 2}};
+constexpr auto dither_levels = [] {
+  std::array<std::array<std::uint8_t, 4>, 4> rows{};
+  for (std::size_t y = 0; y < 4; ++y) {
+    for (std::size_t x = 0; x < 4; ++x) rows[y][x] = static_cast<std::uint8_t>(dither_matrix[y][x] + 4);
+  }
+  return rows;
+}();
 
 /// Three 5-bit channels at once; the top bit of each is added apart, so that no carry leaves a channel.
 LINE_STAGE std::uint32_t blend(Blend how, std::uint32_t back, std::uint32_t front) {
@@ -102,31 +104,32 @@ struct Watcher {
 
 template <class Observer>
 LINE_STAGE void draw_body(LineMode m, const LineJob& job, const Observer& observer) {
-  std::int64_t x = job.x, y = job.y;
-  std::int32_t r = job.c[0], g = job.c[1], b = job.c[2];
-  for (int i = 0; i <= job.steps; ++i) {
-    const int column = static_cast<int>(x >> 32) & 2047, row = static_cast<int>(y >> 32) & 2047;
-    if (!job.may_leave_area || is_inside(*job.state, column, row)) {
-      const auto& level = levels[m.dither ? dither_rows[row & 3][column & 3] : 4];
+  std::int64_t x = job.path.x, y = job.path.y;
+  std::int32_t r = job.path.colour[0], g = job.path.colour[1], b = job.path.colour[2];
+  for (int i = 0; i <= job.path.steps; ++i) {
+    const auto column = static_cast<std::uint32_t>(x >> 32) & 2047,
+               row = static_cast<std::uint32_t>(y >> 32) & 2047;
+    if (!job.may_leave_area || is_inside(*job.state, static_cast<int>(column), static_cast<int>(row))) {
+      const auto& level = levels[m.dither ? dither_levels[row & 3][column & 3] : 4];
       const auto channel = [&level](std::int32_t c) {
         return std::uint32_t{level[static_cast<std::uint32_t>(c) >> 12]};
       };
       const std::uint32_t pixel = channel(r) | channel(g) << 5 | channel(b) << 10;
-      const std::size_t place = Vram::offset(column, row);
+      const std::size_t place = Vram::offset(static_cast<int>(column), static_cast<int>(row));
       const std::uint16_t back = job.pixels[place];
-      if (m.how == Blend::opaque || (back & job.mask_test) == 0) {
+      if (!m.masked || (back & job.mask_test) == 0) {
         const bool blends = m.blend != Blend::opaque;
         const std::uint32_t result = (blends ? blend(m.blend, back, pixel) : pixel) | job.mask_set;
         observer.note(place, back, result, pixel | job.mask_set, blends);
         job.pixels[place] = static_cast<std::uint16_t>(result);
       }
     }
-    x += job.step_x;
-    y += job.step_y;
+    x += job.path.step_x;
+    y += job.path.step_y;
     if (m.gouraud) {
-      r += job.step_c[0];
-      g += job.step_c[1];
-      b += job.step_c[2];
+      r += job.path.step_c[0];
+      g += job.path.step_c[1];
+      b += job.path.step_c[2];
     }
   }
 }
@@ -141,66 +144,28 @@ constexpr auto line_kernels = []<std::size_t... I>(std::index_sequence<I...>) {
 }
 (std::make_index_sequence<LineMode::count>());
 
-/// Quotients by the number of steps, one division for all of a line. Half a unit is added to the numerator's
-/// magnitude first: numerators are below 2^43 and there are at most 1023 steps, so no error of the doubles
-/// reaches an integer.
-class PerStep {
- public:
-  explicit PerStep(int steps) : factor_(steps == 0 ? 0 : 1.0 / steps), away_(std::max(steps - 1, 0)) {}
-  /// 32.32, rounded away from zero so that the last step arrives.
-  [[nodiscard]] std::int64_t distance(int pixels) const {
-    return divide(pixels * 4294967296.0, pixels == 0 ? 0 : away_);
-  }
-  /// 8.12, rounded towards zero.
-  [[nodiscard]] std::int32_t colour(int difference) const {
-    return static_cast<std::int32_t>(divide(difference * 4096.0, 0));
-  }
-
- private:
-  [[nodiscard]] std::int64_t divide(double numerator, double more) const {
-    return static_cast<std::int64_t>((numerator + std::copysign(more + 0.5, numerator)) * factor_);
-  }
-  double factor_, away_;
-};
-
 }  // namespace
 
 void draw_line(const Surface& surface, const Primitive& primitive) {
-  const Vertex *a = primitive.vertices.data(), *b = a + 1;
-  const int width = std::abs(b->x - a->x), height = std::abs(b->y - a->y);
-  if (width > 1023 || height > 511) {
+  const auto path = line_path(primitive);
+  if (!path) {
     ++surface.counters.discarded;
     return;
   }
-  const int steps = std::max(width, height);
-  if (steps > 0 && a->x >= b->x) std::swap(a, b);
-
   const DrawState& state = primitive.state;
-  constexpr std::int64_t one = std::int64_t{1} << 32;
-  const bool is_gouraud = primitive.is_gouraud();
-  const auto start = [](std::uint8_t c) { return std::int32_t{c} * 4096 + 2048; };
-  const PerStep per_step(steps);
-  const std::int64_t step_x = per_step.distance(b->x - a->x), step_y = per_step.distance(b->y - a->y);
-  LineJob job{
+  const Vertex &a = primitive.vertices[0], &b = primitive.vertices[1];
+  const LineJob job{
       .pixels = surface.vram.pixels().data(),
-      .x = a->x * one + one / 2 - 1024,
-      .y = a->y * one + one / 2 - (step_y < 0 ? 1024 : 0),
-      .step_x = step_x,
-      .step_y = step_y,
-      .c = {start(a->r), start(a->g), start(a->b)},
-      .step_c = {},
-      .steps = steps,
-      .may_leave_area = a->x < state.left() || b->x > state.right() || std::min(a->y, b->y) < state.top() ||
-                        std::max(a->y, b->y) > state.bottom() || state.skipped_rows != SkippedRows::none,
+      .path = *path,
+      .may_leave_area = std::min(a.x, b.x) < state.left() || std::max(a.x, b.x) > state.right() ||
+                        std::min(a.y, b.y) < state.top() || std::max(a.y, b.y) > state.bottom() ||
+                        state.skipped_rows != SkippedRows::none,
       .state = &state,
       .mask_set = state.mask_set(),
       .mask_test = state.mask_test(),
   };
-  if (is_gouraud) {
-    job.step_c = {per_step.colour(b->r - a->r), per_step.colour(b->g - a->g), per_step.colour(b->b - a->b)};
-  }
-
-  const LineMode mode{is_gouraud, state.dithers(), state.mask_test() != 0, blend_of(primitive)};
+  const LineMode mode{primitive.is_gouraud(), is_dithered(primitive), state.mask_test() != 0,
+                      blend_of(primitive)};
   if (surface.trace != nullptr) {
     draw_body(mode, job, Watcher{{surface.trace, surface.draw, 0}});
   } else {

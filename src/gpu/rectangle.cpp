@@ -26,14 +26,11 @@ bool is_plain_fill(const Surface& surface, const Primitive& primitive, const Mod
          primitive.state.skipped_rows == SkippedRows::none && box.bottom < Vram::height;
 }
 
-/// A flip along x starts at an odd texel. [ps1-tests texture-flip]
 TextureGradients texel_steps(const Primitive& primitive) {
-  constexpr std::uint32_t one = 1U << 24;
-  const bool flips_x = primitive.state.flips_x(), flips_y = primitive.state.flips_y();
-  const Vertex& corner = primitive.vertices[0];
-  const std::uint32_t u = flips_x ? corner.u | 1U : corner.u;
-  return {.u = {.start = u << 24, .dx = flips_x ? 0 - one : one, .dy = 0},
-          .v = {.start = std::uint32_t{corner.v} << 24, .dx = 0, .dy = flips_y ? 0 - one : one}};
+  const auto fixed = [](int texels) { return static_cast<std::uint32_t>(texels) << 24; };
+  const SpriteTexels t = sprite_texels(primitive);
+  return {.u = {.start = fixed(t.u), .dx = fixed(t.u_step), .dy = 0},
+          .v = {.start = fixed(t.v), .dx = 0, .dy = fixed(t.v_step)}};
 }
 
 }  // namespace
@@ -42,7 +39,7 @@ void draw_rectangle(const Surface& surface, const Primitive& primitive) {
   const Box box = drawn_box(primitive);
   const int width = box.right - box.left + 1, height = box.bottom - box.top + 1;
   if (width <= 0 || height <= 0) return;
-  const Mode mode = mode_of(primitive, false);
+  const Mode mode = mode_of(primitive);
   Job job;
   put_constants(job, surface, primitive);
   if (is_plain_fill(surface, primitive, mode, box)) {

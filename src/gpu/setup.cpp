@@ -8,14 +8,6 @@
 
 namespace gpu {
 
-namespace {
-
-std::uint16_t pack_flat(const Vertex& vertex) {
-  return static_cast<std::uint16_t>(vertex.r >> 3 | vertex.g >> 3 << 5 | vertex.b >> 3 << 10);
-}
-
-}  // namespace
-
 void put_constants(Job& job, const Surface& surface, const Primitive& primitive) {
   const DrawState& state = primitive.state;
   job.pixels = surface.vram.pixels().data();
@@ -26,7 +18,7 @@ void put_constants(Job& job, const Surface& surface, const Primitive& primitive)
   job.r = first.r;
   job.g = first.g;
   job.b = first.b;
-  job.colour = static_cast<std::uint16_t>(pack_flat(first) | state.mask_set());
+  job.colour = static_cast<std::uint16_t>(to_pixel(first.r, first.g, first.b) | state.mask_set());
   if (!primitive.is_textured()) return;
   job.page = {.x = static_cast<std::uint32_t>(state.page_x()),
               .y = static_cast<std::uint32_t>(state.page_y()),

@@ -8,11 +8,12 @@
 
 #include "gpu/job.h"
 #include "gpu/raster.h"
+#include "gpu/rules.h"
 
 namespace gpu {
 
 /// No primitive has more rows. [size rule]
-inline constexpr std::size_t max_rows = 512;
+inline constexpr std::size_t max_rows = max_distance_y + 1;
 
 /// Room for the spans of one primitive, written from the front.
 struct SpanList {
@@ -26,14 +27,10 @@ struct SpanList {
   [[nodiscard]] std::span<const Span> all() const { return {spans.data(), count}; }
 };
 
-inline Blend blend_of(const Primitive& primitive) {
-  return primitive.is_semi_transparent() ? primitive.state.blend() : Blend::opaque;
-}
-
-/// Mode of a polygon or rectangle; `dithers` says whether this kind of primitive may be dithered at all.
+/// Mode of a polygon or rectangle.
 /// Inline: returned from a call, its bytes are written one by one and read as one word, and the
 /// processor waits for that as long as a small rectangle takes to draw.
-inline Mode mode_of(const Primitive& primitive, bool dithers) {
+inline Mode mode_of(const Primitive& primitive) {
   const bool is_textured = primitive.is_textured();
   const bool is_gouraud = primitive.kind == Kind::polygon && primitive.is_gouraud();
   const Shade shade = primitive.is_raw() ? Shade::raw : is_gouraud ? Shade::gouraud : Shade::flat;
@@ -41,8 +38,7 @@ inline Mode mode_of(const Primitive& primitive, bool dithers) {
   return {
       .surface = {.texture = is_textured ? primitive.state.texel_format() : TexelFormat::none,
                   .shade = shade,
-                  .dither = dithers && primitive.state.dithers() && shade != Shade::raw &&
-                            (is_textured || shade == Shade::gouraud)},
+                  .dither = is_dithered(primitive)},
       .blend = blend,
       .masked = blend == Blend::opaque && primitive.state.mask_test() != 0,
       .depth = false,

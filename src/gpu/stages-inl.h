@@ -18,6 +18,7 @@
 
 #include "gpu/depth.h"
 #include "gpu/job.h"
+#include "gpu/rules.h"
 #include "gpu/vram.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -205,16 +206,18 @@ struct Rgb {
   V<D> r, g, b;  // 0..255, or 0..494 after modulation
 };
 
-/// Offsets of the pixels x, x+1 ... of row y. [psx-spx, 24bit RGB to 15bit RGB dithering]
+/// Offsets of the pixels x, x+1 ... of row y.
 template <class D>
 STAGE V<D> dither_offsets(D d, int x, int y) {
-  static constexpr std::int32_t table[4][20] = {
-      {-4, 0, -3, 1, -4, 0, -3, 1, -4, 0, -3, 1, -4, 0, -3, 1, -4, 0, -3, 1},
-      {2, -2, 3, -1, 2, -2, 3, -1, 2, -2, 3, -1, 2, -2, 3, -1, 2, -2, 3, -1},
-      {-3, 1, -4, 0, -3, 1, -4, 0, -3, 1, -4, 0, -3, 1, -4, 0, -3, 1, -4, 0},
-      {3, -1, 2, -2, 3, -1, 2, -2, 3, -1, 2, -2, 3, -1, 2, -2, 3, -1, 2, -2},
-  };
-  return hn::LoadU(d, &table[y & 3][x & 3]);
+  // The matrix again and again, as far as a vector reaches from any column.
+  static constexpr auto table = [] {
+    std::array<std::array<std::int32_t, 20>, 4> rows{};
+    for (std::size_t row = 0; row < 4; ++row) {
+      for (std::size_t i = 0; i < 20; ++i) rows[row][i] = dither_matrix[row][i % 4];
+    }
+    return rows;
+  }();
+  return hn::LoadU(d, &table[static_cast<std::size_t>(y & 3)][static_cast<std::size_t>(x & 3)]);
 }
 
 template <class D>
@@ -300,14 +303,9 @@ STAGE double depth_at(const DepthJob& depth, const Span& span) {
 }
 
 #if HWY_TARGET == HWY_SCALAR
-template <bool is_linear, bool is_float, class D>
+template <bool, bool, class D>
 STAGE V<D> computed_depth(D, const DepthJob& depth, double start, int column) {
-  const DepthConstants& c = *depth.constants;
-  double value = std::min(std::max(start + depth.slope * column, c.low), c.high);
-  if (is_linear) value = std::min(std::max(1.0 / value * c.linear_scale + c.linear_offset, 0.0), c.scale);
-  const std::uint32_t stored = is_float ? std::bit_cast<std::uint32_t>(static_cast<float>(value))
-                                        : static_cast<std::uint32_t>(std::floor(value + 0.5));
-  return V<D>(static_cast<std::int32_t>(stored));
+  return V<D>(static_cast<std::int32_t>(depth.constants->stored(start + depth.slope * column)));
 }
 
 template <class D>

@@ -6,6 +6,7 @@
 
 #include "gpu/kernels.h"
 #include "gpu/raster.h"
+#include "gpu/rules.h"
 #include "gpu/texture_page.h"
 #include "ot/gp0.h"
 
@@ -63,8 +64,7 @@ void ClutCache::use(const Vram& vram, std::uint16_t clut, TexelFormat format) {
 void fill_rectangle(const Surface& surface, const Primitive& primitive) {
   namespace colour = ot::gp0::colour;
   const std::uint32_t word = primitive.command;
-  const auto value = static_cast<std::uint16_t>(colour::R::get(word) >> 3 | colour::G::get(word) >> 3 << 5 |
-                                                colour::B::get(word) >> 3 << 10);
+  const std::uint16_t value = to_pixel(colour::R::get(word), colour::G::get(word), colour::B::get(word));
   const Vertex& corner = primitive.vertices[0];
   const int width = primitive.width, height = primitive.height;
   const bool wraps = corner.x + width > Vram::width || corner.y + height > Vram::height;

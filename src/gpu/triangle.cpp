@@ -96,12 +96,6 @@ void order_from_core(SpanList& list, std::size_t upper, const Corners& sorted, P
   }
 }
 
-/// The leftmost vertex, ties as the hardware has them.
-std::size_t core_vertex(const Three& t) {
-  if (t[1]->x <= t[0]->x) return t[2]->x <= t[1]->x ? 2 : 1;
-  return t[2]->x < t[0]->x ? 2 : 0;
-}
-
 /// trunc(numerator * 4096 / area), one division for all gradients of a triangle. Half a unit is added to the
 /// product's magnitude first: the exact quotient then lies 1/2 / area or more from every integer, while that
 /// of doubles, of magnitude below 2^31 / area, goes wrong by less than 2^-20 / area.
@@ -166,7 +160,7 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
   const int area = doubled_area(corners);
   if (area == 0) return;
   ++surface.counters.triangles;
-  const std::size_t core = core_vertex(t);
+  const std::size_t core = core_vertex(t[0]->x, t[1]->x, t[2]->x);
   const Corners sorted = sorted_by_row(corners);
   // Before the spans: the processor divides while it counts rows.
   put_gradients(job, mode, t, *t[core], area);
@@ -190,7 +184,7 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
 }  // namespace
 
 void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass) {
-  Mode mode = mode_of(primitive, true);
+  Mode mode = mode_of(primitive);
   mode.depth = pass != Pass::console;
   if (pass == Pass::opaque) {
     mode.blend = Blend::opaque;

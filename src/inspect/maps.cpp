@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "inspect/blend.h"
+#include "gpu/rules.h"
 #include "inspect/truth.h"
 
 namespace inspect {
@@ -163,11 +163,12 @@ base::Picture truth_image(const Report& report, const gpu::Trace& trace,
     const std::uint32_t pixel = report.wrong[i].pixel;
     std::uint16_t colour = under[pixel];
     for (const Fragment& f : true_stack(fragments.at(pixel), pixel, surfaces)) {
-      colour = f.blends ? blend(trace.draws[f.draw].state.blend(), colour, f.colour) : f.colour;
+      colour = f.blends ? gpu::blend_pixel(trace.draws[f.draw].state.blend(), colour, f.colour) : f.colour;
     }
     for (const gpu::Event* event : over[i]) {
-      colour = event->blended ? blend(trace.draws[event->draw].state.blend(), colour, event->fragment)
-                              : event->fragment;
+      colour = event->blended
+                   ? gpu::blend_pixel(trace.draws[event->draw].state.blend(), colour, event->fragment)
+                   : event->fragment;
     }
     const int x = static_cast<int>(pixel % Vram::width) - report.picture.x;
     const int y = static_cast<int>(pixel / Vram::width) - report.picture.y;

@@ -70,8 +70,7 @@ base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& 
   if (auto used = use_targets(builder, knobs, gpu); !used) return used;
   Clock::duration drawing{};
   auto start = Clock::now();
-  gpu.begin_frame();
-  if (gpu.canvas() != nullptr) gpu.canvas()->begin_frame(0, frame.buffer_y);
+  gpu.begin_frame(0, frame.buffer_y);
   for (;;) {
     if (auto drawn = draw_list(builder, frame, knobs, ram, gpu); !drawn) return drawn;
     drawing += Clock::now() - start;
@@ -80,12 +79,7 @@ base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& 
     start = Clock::now();
   }
   start = Clock::now();
-  auto end = gpu.end_frame();
-  if (gpu.canvas() != nullptr) {
-    const auto canvas_end = gpu.canvas()->end_frame();
-    end.polygons_without_depth += canvas_end.polygons;
-    end.first_without_depth = canvas_end.first;
-  }
+  const auto end = gpu.end_frame();
   gpu.gp1(FrameBuilder::show_gp1(frame));
   drawing += Clock::now() - start;
   frame.stats.raster_ms = std::chrono::duration<double, std::milli>(drawing).count();

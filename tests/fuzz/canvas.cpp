@@ -57,12 +57,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static gpu::Gpu gpu;  // its pixels are what earlier inputs left: a new one takes longer than the input
   gpu.gp1(0);
   gpu.set_canvas(options(data));
-  gpu.canvas()->begin_frame(0, 0);
+  gpu.begin_frame();
   for (std::size_t at = 4; at + 4 <= size; at += 4) {
     std::uint32_t word = 0;
     std::memcpy(&word, data + at, sizeof word);
     gpu.gp0(word);
   }
-  (void)gpu.canvas()->end_frame();
+  (void)gpu.end_frame();
   return 0;
 }

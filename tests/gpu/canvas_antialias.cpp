@@ -101,7 +101,7 @@ std::vector<std::array<Corner, 3>> near_horizontal_triangles(int count) {
 canvas::Image picture(Studio& studio, const std::array<Corner, 3>& t) {
   studio.draw({0x02000000, 0, side | side << 16});
   studio.draw(polygon(0x20, {t.begin(), t.end()}));
-  studio.canvas.end_frame();
+  studio.gpu.end_frame();
   return canvas::resolve(studio.canvas, canvas::Reconstruction::box);
 }
 
@@ -192,7 +192,7 @@ TEST_SUITE("canvas") {
       canvas::Accumulator accumulator;
       canvas::Image shown;
       for (int frame = 0; frame < 2 * canvas::jitter_length; ++frame) {
-        studio.canvas.begin_frame(0, 0);
+        studio.gpu.begin_frame();
         shown = accumulator.add(picture(studio, t));
       }
       for (int y = 0; y < side; ++y) {

@@ -81,7 +81,7 @@ TEST_SUITE("canvas") {
         console.gp0(words);
         studio.draw(words);
       }
-      studio.canvas.end_frame();
+      studio.gpu.end_frame();
       int different = 0;
       for (int y = 0; y < 240; ++y) {
         for (int x = 0; x < 320; ++x) {

@@ -82,7 +82,7 @@ inline std::vector<std::uint32_t> area_words(int width, int height) {
 class Studio {
  public:
   explicit Studio(const gpu::canvas::Options& options) : gpu(with_canvas(options)), canvas(*gpu.canvas()) {
-    canvas.begin_frame(0, 0);
+    gpu.begin_frame();
     gpu.gp0(area_words(canvas.options().width, canvas.options().height));
   }
   void draw(const std::vector<std::uint32_t>& words) { gpu.gp0(words); }

@@ -135,8 +135,8 @@ TEST_SUITE("canvas") {
         ++sheets;
         Studio studio(options);
         studio.draw(words);
-        const auto end = studio.canvas.end_frame();
-        CHECK(end.polygons == 0);
+        const auto end = studio.gpu.end_frame();
+        CHECK(end.polygons_without_depth == 0);
         for (std::size_t layer = 0; layer < options.layers.size(); ++layer) {
           const auto colours = studio.canvas.layer(layer);
           CAPTURE(target.name);
@@ -169,7 +169,7 @@ TEST_SUITE("canvas") {
         }
         studio.draw(polygon(0x20 | (random.word() & 0x1f), corners, 0x4000, 0x110));
       }
-      studio.canvas.end_frame();
+      studio.gpu.end_frame();
       CAPTURE(target.name);
       CHECK(studio.canvas.counters().written > 0);
     }

@@ -27,7 +27,7 @@ gpu::canvas::Options fine(gpu::canvas::Options options = {}) {
 struct CanvasStage : tests::Stage {
   explicit CanvasStage(const gpu::canvas::Options& options) {
     gpu().set_canvas(options);
-    gpu().canvas()->begin_frame(0, 0);
+    gpu().begin_frame();
   }
 };
 
@@ -103,7 +103,7 @@ TEST_SUITE("inspect") {
     stage.quad(0, 0, 4, 4, 200);
     stage.quad(0, 0, 4, 2, 300, {.texel = ot::Uv{0, 0}});  // texel 0000h
     stage.quad(0, 0, 4, 2, 300, {.texel = ot::Uv{1, 0}});
-    stage.gpu().canvas()->end_frame();
+    stage.gpu().end_frame();
     const auto& history = stage.trace().history;
     CHECK(history.size() == 16 + 16 + 8);
     CHECK(std::count_if(history.begin(), history.end(), [](const auto& e) { return e.rejected; }) == 16 + 8);

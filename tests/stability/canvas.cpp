@@ -227,7 +227,7 @@ TEST_SUITE("stability") {
                      .trace = true});
       std::ranges::fill(studio.gpu.vram().pixels(), std::uint16_t{0x1111});  // no texel is transparent
       for (int i = 0; i < 200; ++i) {
-        studio.canvas.begin_frame(0, 0);
+        studio.gpu.begin_frame();
         std::vector<Corner> corners;
         for (int v = 0; v < 3; ++v) {
           const bool grazes = i % 2 == 1;

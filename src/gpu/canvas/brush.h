@@ -87,7 +87,6 @@ struct Planes {
   RealPlane inverse_z;                ///< 1 / z, when the primitive has depth and somebody reads it
 };
 
-class DepthCode;
 class MipChain;
 
 /// Fog ready for the pixel loop: f = constant + slope / z, limited to 0..1.
@@ -126,7 +125,7 @@ struct Paint {
   Pixel mask_set = 0;         ///< 0 or mask_bit
   Pixel quantise = 0xf8f8f8;  ///< or ffffff in 24-bit colour
   Pass pass = Pass::console;
-  const DepthCode* depth_code = nullptr;
+  const DepthConstants* depth = nullptr;
   const FogRamp* fog = nullptr;
   int phase_x = 0, phase_y = 0;  ///< of the dither pattern: the canvas pixel 0, 0 in VRAM, times the scale
   std::uint32_t id = 0;

@@ -8,6 +8,7 @@
 #include "gpu/canvas/sample_pattern.h"
 #include "gpu/canvas/stages.h"
 #include "gpu/columns.h"
+#include "gpu/rules.h"
 
 namespace gpu::canvas {
 namespace {
@@ -63,47 +64,37 @@ Canvas::Canvas(Options options)
     ids_.resize(area(o));
     texcoords_.resize(area(o));
   }
-  if (o.depth) depth_code_ = DepthCode(*o.depth);
+  if (o.depth) depth_.emplace(*o.depth);
   if (o.fog) fog_ = ramp(*o.fog);
 }
 
 void Canvas::begin_frame(int x, int y) {
   grid_.x = watch_.x = x;
   grid_.y = watch_.y = y;
-  for (Layer& layer : layers_) std::ranges::fill(layer.depth, DepthCode::empty);
+  for (Layer& layer : layers_) std::ranges::fill(layer.depth, DepthPlane::empty);
   std::ranges::fill(ids_, 0);
-  queue_.clear();
-  without_depth_ = {};
   if (options_.temporal) layer_points_[0] = temporal_jitter(frames_++);
 }
 
-WithoutDepth Canvas::end_frame() {
-  draw_queue();
-  return without_depth_;
+bool Canvas::covers(const DrawState& state) const {
+  const Clip inside = clip(state);
+  return !inside.columns.is_empty() && !inside.rows.is_empty();
 }
 
-bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id) {
-  const Clip inside = clip(p.state);
-  if (inside.columns.is_empty() || inside.rows.is_empty()) {
+bool Canvas::draw(const Primitive& p, Pass pass, const Vram& vram, const std::uint16_t* clut,
+                  std::uint32_t id) {
+  if (!covers(p.state)) {
     const DrawState& state = p.state;
     mips_.forget(
         {state.left(), state.top(), state.right() - state.left() + 1, state.bottom() - state.top() + 1});
     return false;
   }
-  const Paint how = paint(p, vram, clut, id);
+  const Clip inside = clip(p.state);
+  const Paint how = paint(p, pass, vram, clut, id);
   watch_.draw = id - 1;
   watch_.half = 0;
   switch (p.kind) {
     case Kind::polygon:
-      if (options_.depth && p.has_depth && p.is_semi_transparent()) {
-        std::uint32_t farthest = 0;
-        for (std::size_t i = 0; i < p.vertex_count; ++i) farthest = std::max(farthest, p.vertices[i].z);
-        queue_.push_back({p, {}, &vram, id, farthest});
-        if (p.is_textured()) std::copy_n(clut, 256, queue_.back().clut.begin());
-        if (!p.is_textured()) return true;  // nothing of it is opaque
-      } else if (options_.depth && !p.has_depth && without_depth_.polygons++ == 0) {
-        without_depth_.first = p.command_number;
-      }
       polygon(p, how, inside);
       return true;
     case Kind::rectangle:
@@ -115,17 +106,6 @@ bool Canvas::draw(const Primitive& p, const Vram& vram, const std::uint16_t* clu
     default:
       return false;
   }
-}
-
-void Canvas::draw_queue() {
-  std::ranges::stable_sort(queue_, std::ranges::greater{}, &Queued::farthest_z);
-  for (const Queued& q : queue_) {
-    Paint how = paint(q.primitive, *q.vram, q.clut.data(), q.id);
-    how.pass = Pass::semi_transparent;
-    watch_.draw = q.id - 1;
-    polygon(q.primitive, how, clip(q.primitive.state));
-  }
-  queue_.clear();  // and keeps its room for the next frame
 }
 
 void Canvas::put_into(std::span<std::uint16_t> vram) const {
@@ -165,24 +145,24 @@ Canvas::Clip Canvas::clip(const DrawState& state) const {
           side(state.top(), state.bottom(), grid_.y, options_.height)};
 }
 
-Paint Canvas::paint(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id) {
+Paint Canvas::paint(const Primitive& p, Pass pass, const Vram& vram, const std::uint16_t* clut,
+                    std::uint32_t id) {
   const DrawState& state = p.state;
   const bool is_polygon = p.kind == Kind::polygon;
   const bool deep = is_polygon && p.has_depth;
   Paint paint;
-  paint.mode.depth = deep && options_.depth.has_value();
+  paint.mode.depth = pass != Pass::console;
   paint.mode.trace = options_.trace;
-  if (p.is_semi_transparent()) paint.mode.blend = state.blend();
+  paint.mode.blend = blend_of(p);
   paint.raw = p.is_raw();
   paint.gouraud = is_polygon && p.is_gouraud();
   paint.perspective = deep && options_.perspective && (p.is_textured() || p.is_gouraud());
-  paint.dither = options_.colour == Colour::bits15 && state.dithers() &&
-                 (p.kind == Kind::line || (is_polygon && !p.is_raw() && (p.is_gouraud() || p.is_textured())));
+  paint.dither = options_.colour == Colour::bits15 && is_dithered(p);
   paint.mask_test = state.mask_test() != 0;
   paint.mask_set = state.mask_set() != 0 ? mask_bit : 0;
   paint.quantise = options_.colour == Colour::bits15 ? 0xf8f8f8 : 0xffffff;
-  paint.pass = paint.mode.depth ? Pass::opaque : Pass::console;
-  paint.depth_code = paint.mode.depth ? &depth_code_ : nullptr;
+  paint.pass = pass;
+  paint.depth = paint.mode.depth ? &*depth_ : nullptr;
   paint.fog = deep && options_.fog ? &fog_ : nullptr;
   paint.phase_x = grid_.x * options_.scale;
   paint.phase_y = grid_.y * options_.scale;
@@ -348,47 +328,27 @@ void Canvas::draw_block(const Paint& paint, const Planes& planes, Range columns,
   }
 }
 
-/// Reference 7.
 void Canvas::rectangle(const Primitive& p, const Paint& paint, const Clip& clip) {
-  const DrawState& state = p.state;
   const Vertex& corner = p.vertices[0];
-  const int u = state.flips_x() ? corner.u | 1 : corner.u;
-  const Planes planes = make_flat_planes(grid_, corner, grid_.place(corner, false), u,
-                                         state.flips_x() ? -1 : 1, state.flips_y() ? -1 : 1);
+  const SpriteTexels t = sprite_texels(p);
+  const Planes planes = make_flat_planes(grid_, corner, grid_.place(corner, false), t.u, t.u_step, t.v_step);
   ++counters_.primitives;
   draw_block(paint, planes, {corner.x, corner.x + p.width}, {corner.y, corner.y + p.height}, clip);
 }
 
-/// Reference 8.
 void Canvas::line(const Primitive& p, const Paint& paint, const Clip& clip) {
-  const Vertex* a = &p.vertices[0];
-  const Vertex* b = &p.vertices[1];
-  if (std::abs(b->x - a->x) > 1023 || std::abs(b->y - a->y) > 511) return;
-  const int steps = std::max(std::abs(b->x - a->x), std::abs(b->y - a->y));
-  if (steps > 0 && a->x >= b->x) std::swap(a, b);
-  constexpr std::int64_t one = std::int64_t{1} << 32;
-  const auto slope = [steps](std::int64_t d) {
-    return steps == 0 ? 0 : (d * one + (d < 0 ? 1 - steps : d > 0 ? steps - 1 : 0)) / steps;
-  };
-  const std::int64_t dx = slope(b->x - a->x);
-  const std::int64_t dy = slope(b->y - a->y);
-  std::int64_t x = a->x * one + one / 2 - 1024;
-  std::int64_t y = a->y * one + one / 2 - (dy < 0 ? 1024 : 0);
+  auto path = line_path(p);
+  if (!path) return;
   ++counters_.primitives;
-  const auto shade = [steps](int from, int to, int i) {
-    return static_cast<std::uint8_t>(
-        (from * 4096 + 2048 + (steps == 0 ? 0 : (to - from) * 4096 / steps) * i) >> 12);
-  };
-  for (int i = 0; i <= steps; ++i, x += dx, y += dy) {
+  for (int i = 0; i <= path->steps; ++i, path->advance()) {
     Vertex dot = p.vertices[0];
     if (p.is_gouraud()) {
-      dot.r = shade(a->r, b->r, i);
-      dot.g = shade(a->g, b->g, i);
-      dot.b = shade(a->b, b->b, i);
+      dot.r = static_cast<std::uint8_t>(path->colour[0] >> 12);
+      dot.g = static_cast<std::uint8_t>(path->colour[1] >> 12);
+      dot.b = static_cast<std::uint8_t>(path->colour[2] >> 12);
     }
-    const int px = static_cast<int>(x >> 32);
-    const int py = static_cast<int>(y >> 32);
-    draw_block(paint, make_flat_planes(grid_, dot, {}, 0, 1, 1), {px, px + 1}, {py, py + 1}, clip);
+    const int x = static_cast<int>(path->x >> 32), y = static_cast<int>(path->y >> 32);
+    draw_block(paint, make_flat_planes(grid_, dot, {}, 0, 1, 1), {x, x + 1}, {y, y + 1}, clip);
   }
 }
 
@@ -408,7 +368,6 @@ std::vector<Buffer> Canvas::buffers() const {
   add("canvas samples", colour - per_sample);
   add("canvas depth", depth);
   add("canvas trace", (ids_.size() + texcoords_.size()) * sizeof(std::uint32_t));
-  add("canvas queue", queue_.capacity() * sizeof(Queued));
   add("mip levels", mips_.bytes());
   return list;
 }

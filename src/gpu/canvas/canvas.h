@@ -17,12 +17,12 @@
 #include <string_view>
 #include <vector>
 
-#include "gpu/canvas/depth_code.h"
 #include "gpu/canvas/kernels.h"
 #include "gpu/canvas/mip.h"
 #include "gpu/canvas/options.h"
 #include "gpu/canvas/setup.h"
 #include "gpu/columns.h"
+#include "gpu/depth.h"
 #include "gpu/primitive.h"
 #include "gpu/vram.h"
 
@@ -33,12 +33,6 @@ struct Buffer {
   std::uint64_t bytes;
 };
 
-/// What a z-buffered frame could not do.
-struct WithoutDepth {
-  std::uint32_t polygons = 0;  ///< drawn in list order, neither tested nor stored
-  std::uint32_t first = 0;     ///< command number of the first, if there is any
-};
-
 class Canvas {
  public:
   /// All black. Needs: the limits named in options.h.
@@ -46,19 +40,20 @@ class Canvas {
 
   [[nodiscard]] const Options& options() const { return options_; }
 
-  /// Places the canvas over VRAM pixels (x, y)..(x + width - 1, y + height - 1), empties depth, trace, queue.
-  /// Keeps the picture, as a frame buffer does.
+  /// Places the canvas over VRAM pixels (x, y)..(x + width - 1, y + height - 1), empties depth and trace.
+  /// Keeps the picture, as a frame buffer does. A Gpu begins its canvas' frames itself.
   void begin_frame(int x, int y);
-  /// Draws the queued semi-transparent polygons, far to near.
-  WithoutDepth end_frame();
 
   /// Polygons draw inside these limits only, in canvas pixels before the drawing offset; nothing: everywhere.
   /// For a canvas of one sample a pixel, at its centre. The columns stay the caller's.
   void set_limits(const std::optional<Limits>& limits) { limits_ = limits; }
-  /// Draws a polygon, rectangle or line segment if its drawing area touches the canvas.
-  /// False: it does not, the primitive is VRAM's. `clut`: 256 entries, read during the call.
-  /// `id` is stored as the pixels' writer.
-  bool draw(const Primitive& primitive, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
+  /// Whether the drawing area touches the canvas; what is drawn under another one is VRAM's.
+  [[nodiscard]] bool covers(const DrawState& state) const;
+  /// Draws a polygon, rectangle or line segment if covers() says so; false: it does not, and VRAM is drawn
+  /// on. Passes but the console's need options().depth and a polygon with depth. `clut`: 256 entries, read
+  /// during the call. `id` is stored as the pixels' writer.
+  bool draw(const Primitive& primitive, Pass pass, const Vram& vram, const std::uint16_t* clut,
+            std::uint32_t id);
   /// From the next draw() on writes are noted in `trace`, as pixels of VRAM and in 16 bits; nullptr ends it.
   /// It must live until the frame has ended. Nothing is noted unless options().can_be_watched().
   void watch(Trace* trace) { watch_.trace = trace; }
@@ -92,19 +87,13 @@ class Canvas {
     std::vector<Pixel> colour;
     std::vector<std::uint32_t> depth;
   };
-  struct Queued {
-    Primitive primitive;
-    std::array<std::uint16_t, 256> clut;
-    const Vram* vram;
-    std::uint32_t id, farthest_z;
-  };
   struct Clip {
     Range columns, rows;
   };
 
   [[nodiscard]] Target target(std::size_t layer);
   [[nodiscard]] Clip clip(const DrawState& state) const;
-  Paint paint(const Primitive& p, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
+  Paint paint(const Primitive& p, Pass pass, const Vram& vram, const std::uint16_t* clut, std::uint32_t id);
   void polygon(const Primitive& p, const Paint& paint, const Clip& clip);
   void triangle(const Primitive& p, const Triangle& triangle, const Paint& paint, const Clip& clip);
   void rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
@@ -114,7 +103,6 @@ class Canvas {
   void rectangle(const Primitive& p, const Paint& paint, const Clip& clip);
   void line(const Primitive& p, const Paint& paint, const Clip& clip);
   void draw_block(const Paint& paint, const Planes& planes, Range columns, Range rows, const Clip& clip);
-  void draw_queue();
   void fill(const Primitive& p);
   void copy(const Primitive& p, const Vram& vram);
   void upload(const Primitive& p, const Vram& vram);
@@ -126,12 +114,10 @@ class Canvas {
   std::vector<Point> layer_points_, sample_points_;
   std::vector<Layer> layers_;
   std::vector<std::uint32_t> ids_, texcoords_;
-  std::vector<Queued> queue_;
   int frames_ = 0;  // begun
-  DepthCode depth_code_;
+  std::optional<DepthConstants> depth_;
   FogRamp fog_;
   MipCache mips_;
-  WithoutDepth without_depth_;
   Counters counters_;
   Watch watch_;
 };

@@ -1,23 +1,23 @@
 // How a Gpu hands primitives to its canvas.
 
 #include "gpu/canvas/canvas.h"
+#include "gpu/depth_queue.h"
 #include "gpu/gpu.h"
+#include "gpu/raster.h"
 
 namespace gpu {
 
 void Gpu::set_canvas(const std::optional<canvas::Options>& options) {
-  if (!options) {
-    canvas_ = nullptr;
-  } else if (canvas_ == nullptr || canvas_->options() != *options) {
-    canvas_ = std::make_unique<canvas::Canvas>(*options);
-  }
+  if (options && canvas_ != nullptr && canvas_->options() == *options) return;
+  canvas_ = options ? std::make_unique<canvas::Canvas>(*options) : nullptr;
+  queue_ = nullptr;
 }
 
 /// Needs canvas_.
-bool Gpu::draw_on_canvas() {
+bool Gpu::draw_on_canvas(const Surface& surface, const Primitive& primitive, Pass pass) {
   canvas_->watch(trace_);
   canvas_->set_limits(limits_);
-  return canvas_->draw(current_, vram_, clut_.entries(), current_draw() + 1);
+  return canvas_->draw(primitive, pass, vram_, surface.clut, surface.draw + 1);
 }
 
 /// Needs canvas_.

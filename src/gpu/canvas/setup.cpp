@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <bit>
 
+#include "gpu/rules.h"
+
 namespace gpu::canvas {
 namespace {
-
-/// The console's choice of the corner from which attributes are counted. [reference 5.1]
-std::size_t core_vertex(const std::array<Point, 3>& p) {
-  if (p[1].x <= p[0].x) return p[2].x <= p[1].x ? 2 : 1;
-  return p[2].x < p[0].x ? 2 : 0;
-}
 
 std::array<int, 5> attributes(const Vertex& v) { return {v.r, v.g, v.b, v.u, v.v}; }
 
@@ -56,7 +52,7 @@ int Grid::unit_log2() const { return unit_bits + std::countr_zero(static_cast<un
 Planes make_planes(const Grid& grid, const Triangle& triangle, const std::array<Point, 3>& corners,
                    const Paint& paint, bool with_inverse_z) {
   Planes planes;
-  const std::size_t core = core_vertex(corners);
+  const std::size_t core = core_vertex(corners[0].x, corners[1].x, corners[2].x);
   const auto area = doubled_area(corners[0], corners[1], corners[2]);
   const auto real_area = static_cast<double>(area);
   const std::array<std::array<int, 5>, 3> f{attributes(*triangle[0]), attributes(*triangle[1]),

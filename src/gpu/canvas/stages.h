@@ -8,9 +8,9 @@
 #include <bit>
 #include <cstdint>
 
-#include "gpu/canvas/depth_code.h"
 #include "gpu/canvas/kernels.h"
 #include "gpu/canvas/texel.h"
+#include "gpu/rules.h"
 
 namespace gpu::canvas {
 
@@ -80,6 +80,7 @@ inline bool test_depth(const Target& target, const Paint& paint, const Planes& p
   const auto row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(target.width) +
                    static_cast<std::size_t>(run.x);
   const RealPlane& plane = planes.inverse_z;
+  const DepthConstants& depth = *paint.depth;
   for (std::size_t sample = 0; sample < samples; ++sample) {
     const Point at = target.samples[sample];
     const double start = plane.at(run.x * units_per_pixel - planes.origin.x + at.x,
@@ -87,9 +88,9 @@ inline bool test_depth(const Target& target, const Paint& paint, const Planes& p
     const double step = plane.per_x * static_cast<double>(units_per_pixel);
     for (int k = 0; k < run.count; ++k) {
       const auto i = static_cast<std::size_t>(k);
-      const auto key = paint.depth_code->key(start + step * k);
+      const auto key = depth.key(depth.stored(depth.quantity(start + step * k)));
       f.keys[i * samples + sample] = key;
-      const bool visible = paint.depth_code->passes(key, target.depth[(row + i) * samples + sample]);
+      const bool visible = depth.wins(key, target.depth[(row + i) * samples + sample]);
       f.alive[i] = static_cast<std::uint8_t>(f.alive[i] & ~((visible ? 0U : 1U) << sample));
     }
   }
@@ -190,17 +191,13 @@ inline void fetch_texels(const Paint& paint, int count, Fragments& f) {
   }
 }
 
-/// [y & 3][x & 3] of the canvas pixel; at scale 1 the console's. [reference 6.4]
-inline constexpr std::array<std::array<std::int8_t, 4>, 4> dither_offsets{
-    {{-4, 0, -3, 1}, {2, -2, 3, -1}, {-3, 1, -4, 0}, {3, -1, 2, -2}}};
-
 /// Modulation, fog, dither, quantisation: the colour that is blended or stored. With texels widened as v << 3
 /// and the low three bits cut, (texel * colour) >> 7 gives the console's (texel5 * colour) >> 4 >> 3.
 /// [reference 6.2, 6.3]
 template <bool textured>
 inline void shade(const Paint& paint, const Run& run, const std::array<std::int32_t, run_length>& fog,
                   Fragments& f) {
-  const auto& dither = dither_offsets[static_cast<std::size_t>((run.y + paint.phase_y) & 3)];
+  const auto& dither = dither_matrix[static_cast<std::size_t>((run.y + paint.phase_y) & 3)];
   for (int k = 0; k < run.count; ++k) {
     const auto i = static_cast<std::size_t>(k);
     std::array<std::int32_t, 3> c{f.r[i], f.g[i], f.b[i]};

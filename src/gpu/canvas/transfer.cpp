@@ -56,7 +56,6 @@ class Blocks {
 }  // namespace
 
 void Canvas::transfer(const Primitive& p, const Vram& vram) {
-  draw_queue();
   mips_.forget({p.vertices[0].x, p.vertices[0].y, p.width, p.height});
   switch (p.kind) {
     case Kind::fill:
