@@ -2,8 +2,10 @@
 
 #include <hwy/targets.h>
 
+#include <atomic>
 #include <cassert>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gte/batch_doors.h"
@@ -12,51 +14,43 @@
 namespace gte {
 namespace {
 
-/// One way through the batch door. `name` is what people call the instruction set.
+/// One way through the batch door.
 struct Target {
   const char* name;
   const ProjectDoors* project;
   const LightDoors* light;
 };
 
-const char* common_name(std::int64_t target) {
-  switch (target) {
-    case HWY_SSE4:
-      return "SSE4";
-    case HWY_AVX2:
-      return "AVX2";
-    case HWY_AVX3:
-      return "AVX-512";
-    default:
-      return hwy::TargetName(target);
-  }
-}
-
-/// Asks Highway for the kernels of each instruction set this processor has, fastest first. Its choice is
-/// process-wide, so it is left as it was found: at "all".
+/// What this processor has, fastest first.
 std::vector<Target> find_targets() {
   std::vector<Target> found;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    const ProjectDoors* project = chosen_project_doors();
-    const LightDoors* light = chosen_light_doors();
-    if (project != nullptr && light != nullptr) found.push_back({common_name(target), project, light});
+#if HWY_ARCH_X86
+  const std::int64_t supported = hwy::SupportedTargets();
+  for (const auto& [name, id] : {std::pair{"avx512", HWY_AVX3}, {"avx2", HWY_AVX2}, {"sse4", HWY_SSE4}}) {
+    const ProjectDoors* project = project_doors(id);
+    const LightDoors* light = light_doors(id);
+    if ((supported & id) != 0 && project != nullptr && light != nullptr) {
+      found.push_back({name, project, light});
+    }
   }
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+#endif
   found.push_back({"scalar", &plain_project_doors, &plain_light_doors});
   return found;
 }
 
-struct Dispatch {
-  std::vector<Target> targets = find_targets();
-  Target now = targets.front();
-};
+const std::vector<Target>& targets() {
+  static const std::vector<Target> found = find_targets();
+  return found;
+}
 
-Dispatch& dispatch() {
-  static Dispatch chosen;
-  return chosen;
+/// What it points to is constant: threads that ask at once find the same.
+std::atomic<const Target*> chosen = nullptr;
+
+const Target& now() {
+  if (const Target* known = chosen.load(std::memory_order_relaxed)) return *known;
+  const Target* best = targets().data();
+  chosen.store(best, std::memory_order_relaxed);
+  return *best;
 }
 
 /// NCLIP, AVSZ3 and AVSZ4 of faces whose corners are anywhere: the time goes into finding them, so no SIMD.
@@ -89,13 +83,13 @@ void measure(S3_12 scale, std::span<const ScreenXy> sxy, std::span<const std::ui
 }  // namespace
 
 void project(const Registers& setup, std::span<const Vertex> in, const ProjectOut& out, Command c) {
-  dispatch().now.project->project(setup, in, out, c);
+  now().project->project(setup, in, out, c);
 }
 
 void project_triangles(const Registers& setup, std::span<const Vertex> in, const TriangleOut& out,
                        Command c) {
   assert(in.size() % 3 == 0);
-  dispatch().now.project->project_triangles(setup, in, out, c);
+  now().project->project_triangles(setup, in, out, c);
 }
 
 void measure_triangles(const Registers& setup, std::span<const ScreenXy> sxy,
@@ -113,37 +107,37 @@ void light(const Registers& setup, Light kind, std::span<const Vertex> normals, 
            std::span<const std::int16_t> ir0, const ColourOut& out, Command c) {
   assert(rgbc.empty() || rgbc.size() == normals.size());
   assert(ir0.empty() || ir0.size() == normals.size());
-  dispatch().now.light->light(setup, kind, normals, rgbc, ir0, out, c);
+  now().light->light(setup, kind, normals, rgbc, ir0, out, c);
 }
 
 void cue(const Registers& setup, std::span<const Colour> rgbc, std::span<const std::int16_t> ir0,
          const ColourOut& out, Command c) {
   assert(ir0.empty() || ir0.size() == rgbc.size());
-  dispatch().now.light->cue(setup, rgbc, ir0, out, c);
+  now().light->cue(setup, rgbc, ir0, out, c);
 }
 
 void cue_triples(const Registers& setup, std::span<const Colour> rgb, std::span<const std::int16_t> ir0,
                  const ColourOut& out, Command c) {
   assert(rgb.size() % 3 == 0 && (ir0.empty() || ir0.size() == rgb.size() / 3));
-  dispatch().now.light->cue_triples(setup, rgb, ir0, out, c);
+  now().light->cue_triples(setup, rgb, ir0, out, c);
 }
 
 void multiply(const Registers& setup, Command c, std::span<const Vertex> in, const VectorOut& out) {
-  dispatch().now.light->multiply(setup, c, in, out);
+  now().light->multiply(setup, c, in, out);
 }
 
-const char* batch_target() { return dispatch().now.name; }
+const char* batch_target() { return now().name; }
 
 std::vector<const char*> batch_targets() {
   std::vector<const char*> names;
-  for (const Target& target : dispatch().targets) names.push_back(target.name);
+  for (const Target& target : targets()) names.push_back(target.name);
   return names;
 }
 
 bool use_batch_target(std::string_view name) {
-  for (const Target& target : dispatch().targets) {
+  for (const Target& target : targets()) {
     if (target.name == name) {
-      dispatch().now = target;
+      chosen.store(&target, std::memory_order_relaxed);
       return true;
     }
   }

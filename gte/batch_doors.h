@@ -3,6 +3,7 @@
 // one that all others must equal.
 
 #include <cstddef>
+#include <cstdint>
 
 #include "gte/batch.h"
 
@@ -27,10 +28,9 @@ struct LightDoors {
 extern const ProjectDoors plain_project_doors;
 extern const LightDoors plain_light_doors;
 
-/// Those of the instruction set that Highway has chosen; null where it has none that
-/// is faster than the plain loop.
-const ProjectDoors* chosen_project_doors();
-const LightDoors* chosen_light_doors();
+/// Those of an instruction set, one bit as Highway numbers it; null where this build has none.
+const ProjectDoors* project_doors(std::int64_t target);
+const LightDoors* light_doors(std::int64_t target);
 
 /// A pointer into the same array further on; null stays null.
 template <class T>

@@ -423,7 +423,17 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace gte {
-HWY_EXPORT(light_doors);
-const LightDoors* chosen_light_doors() { return HWY_DYNAMIC_DISPATCH(light_doors)(); }
+const LightDoors* light_doors([[maybe_unused]] std::int64_t target) {
+#if HWY_TARGETS & HWY_AVX3
+  if (target == HWY_AVX3) return N_AVX3::light_doors();
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  if (target == HWY_AVX2) return N_AVX2::light_doors();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+  if (target == HWY_SSE4) return N_SSE4::light_doors();
+#endif
+  return nullptr;
+}
 }  // namespace gte
 #endif

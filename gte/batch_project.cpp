@@ -457,7 +457,17 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace gte {
-HWY_EXPORT(project_doors);
-const ProjectDoors* chosen_project_doors() { return HWY_DYNAMIC_DISPATCH(project_doors)(); }
+const ProjectDoors* project_doors([[maybe_unused]] std::int64_t target) {
+#if HWY_TARGETS & HWY_AVX3
+  if (target == HWY_AVX3) return N_AVX3::project_doors();
+#endif
+#if HWY_TARGETS & HWY_AVX2
+  if (target == HWY_AVX2) return N_AVX2::project_doors();
+#endif
+#if HWY_TARGETS & HWY_SSE4
+  if (target == HWY_SSE4) return N_SSE4::project_doors();
+#endif
+  return nullptr;
+}
 }  // namespace gte
 #endif

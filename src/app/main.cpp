@@ -13,6 +13,8 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
+#include "app/target.h"
+#include "commit.h"
 
 namespace {
 
@@ -43,10 +45,23 @@ bool is_command(std::string_view name) {
   return std::any_of(app::commands.begin(), app::commands.end(), has_name);
 }
 
+std::string version() {
+#ifdef __clang__
+  constexpr const char* compiler = "Clang " __clang_version__;
+#else
+  constexpr const char* compiler = "GCC " __VERSION__;
+#endif
+  return std::string("otter " OTTER_VERSION " (commit " OTTER_COMMIT ", ") + compiler + ", target " +
+         std::string(app::target()) + ")";
+}
+
 int run(int argc, char** argv) {
+  if (const auto target = app::choose_target(); !target) {
+    return complain("otter", target.error().text, bad_usage);
+  }
   CLI::App program("Otter draws 3D the way the first PlayStation did: an ordering table, and no depth.",
                    "otter");
-  program.set_version_flag("--version", "otter " OTTER_VERSION);
+  program.set_version_flag("--version", version());
   program.set_help_flag("-h,--help", "print this help");
   program.footer("otter COMMAND --help tells more, with examples.");
   program.get_formatter()->column_width(34);

@@ -38,10 +38,10 @@ struct Operations {
 };
 const Operations& operations();
 
-/// The dispatch target in use: "AVX3", "AVX2", "SSE4", "SCALAR" or what Highway calls another processor's.
+/// The dispatch target in use: "avx512", "avx2", "sse4" or "scalar".
 std::string_view target_name();
-/// Targets this processor runs, best first; one of them for all later drawing (tests,
-/// benchmarks). False: unknown.
+/// Targets this processor runs, best first; one of them for all later drawing, of every Gpu. False: it is not
+/// one of them.
 std::vector<std::string_view> target_names();
 bool use_target(std::string_view name);
 

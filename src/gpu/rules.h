@@ -41,7 +41,9 @@ inline bool is_dithered(const Primitive& p) {
 }
 
 /// How a primitive is mixed with what is there; of a textured one, its texels with bit 15.
-inline Blend blend_of(const Primitive& p) { return p.is_semi_transparent() ? p.state.blend() : Blend::opaque; }
+inline Blend blend_of(const Primitive& p) {
+  return p.is_semi_transparent() ? p.state.blend() : Blend::opaque;
+}
 
 /// One channel, `most` its largest value: 31 on the console. [semi-transparency]
 constexpr int blend_channel(Blend how, int back, int front, int most = 31) {

@@ -12,6 +12,7 @@
 #include "app/commands/commands.h"
 #include "app/window/window_state.h"
 #include "demos/demos.h"
+#include "gpu/kernels.h"
 #include "scene/knobs.h"
 
 namespace {
@@ -30,6 +31,26 @@ TEST_SUITE("otter") {
     CHECK(help.err.empty());
     for (const auto& command : app::commands) CHECK(mentions(help.out, command.name));
     CHECK(folder.otter("--version").out.starts_with("otter "));
+  }
+
+  TEST_CASE("OTTER_TARGET forces the instruction set, says so in --version, and changes no picture") {
+    const Folder folder;
+    std::string first;
+    for (const std::string_view target : gpu::target_names()) {
+      CAPTURE(target);
+      const auto forced = "OTTER_TARGET=" + std::string(target);
+      CHECK(mentions(folder.otter("--version", forced).out, "target " + std::string(target)));
+      REQUIRE(folder.otter("render crates -o x.png", forced).status == 0);
+      const auto picture = contents(folder.path / "x.png");
+      CHECK_FALSE(picture.empty());
+      if (first.empty()) first = picture;
+      CHECK(picture == first);
+    }
+    const auto refused = folder.otter("list", "OTTER_TARGET=pdp11");
+    CHECK(refused.status == 2);
+    CHECK(is_one_line(refused.err));
+    CHECK(mentions(refused.err, "OTTER_TARGET=pdp11: no such target; expected one of"));
+    CHECK(refused.out.empty());
   }
 
   TEST_CASE("a frame of split polygons is recorded, and what that costs is said") {
