@@ -73,8 +73,9 @@ void measure(S3_12 scale, std::span<const ScreenXy> sxy, std::span<const std::ui
       Limits limits;
       std::int64_t depth = 0;
       for (std::size_t k = 0; k < corners; ++k) depth += sz[corner[k]];
-      limits.mac0(scale.raw * depth);
-      put(out.otz, face, limits.depth(scale.raw * depth >> 12));
+      const DepthAverage average = depth_average(scale, depth);
+      limits.mac0(average.mac0);
+      put(out.otz, face, limits.depth(average.otz));
       put(out.avsz_flag, face, limits.finish());
     }
   }

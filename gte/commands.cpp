@@ -256,17 +256,17 @@ void nclip(Registers& r, Command) {
 
 void avsz3(Registers& r, Command) {
   Limits limits;
-  const std::int64_t sum = std::int64_t{r.zsf3.raw} * (r.sz[1] + r.sz[2] + r.sz[3]);
-  r.mac[0] = limits.mac0(sum);
-  r.otz = limits.depth(sum >> 12);
+  const DepthAverage average = depth_average(r.zsf3, r.sz[1] + r.sz[2] + r.sz[3]);
+  r.mac[0] = limits.mac0(average.mac0);
+  r.otz = limits.depth(average.otz);
   r.flag = limits.finish();
 }
 
 void avsz4(Registers& r, Command) {
   Limits limits;
-  const std::int64_t sum = std::int64_t{r.zsf4.raw} * (r.sz[0] + r.sz[1] + r.sz[2] + r.sz[3]);
-  r.mac[0] = limits.mac0(sum);
-  r.otz = limits.depth(sum >> 12);
+  const DepthAverage average = depth_average(r.zsf4, r.sz[0] + r.sz[1] + r.sz[2] + r.sz[3]);
+  r.mac[0] = limits.mac0(average.mac0);
+  r.otz = limits.depth(average.otz);
   r.flag = limits.finish();
 }
 

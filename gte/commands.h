@@ -83,8 +83,9 @@ void rtpt(Registers& r, Command c = sdk::rtpt);
 ///     MAC0 = SX0*(SY1-SY2) + SX1*(SY2-SY0) + SX2*(SY0-SY1)
 void nclip(Registers& r, Command c = sdk::nclip);
 
-/// The exact sum of NCLIP, which MAC0 keeps the low 32 bits of.
-constexpr std::int64_t signed_area(ScreenXy a, ScreenXy b, ScreenXy c) {
+/// The exact sum of NCLIP, which MAC0 keeps the low 32 bits of; and that of finer positions, below 2^30.
+template <class Position>
+constexpr std::int64_t signed_area(const Position& a, const Position& b, const Position& c) {
   return std::int64_t{a.x} * (b.y - c.y) + std::int64_t{b.x} * (c.y - a.y) + std::int64_t{c.x} * (a.y - b.y);
 }
 
@@ -95,6 +96,15 @@ void avsz3(Registers& r, Command c = sdk::avsz3);
 
 /// AVSZ4: as AVSZ3 for a quad, MAC0 = ZSF4 * (SZ0 + SZ1 + SZ2 + SZ3).
 void avsz4(Registers& r, Command c = sdk::avsz4);
+
+/// What AVSZ3 and AVSZ4 come to before their limits; `depths` is the sum of SZ.
+struct DepthAverage {
+  std::int64_t mac0, otz;
+};
+constexpr DepthAverage depth_average(S3_12 scale, std::int64_t depths) {
+  const std::int64_t sum = scale.raw * depths;
+  return {sum, sum >> 12};
+}
 
 // ---- vectors
 

@@ -34,8 +34,8 @@ std::uint32_t otz_of(std::span<const Corner> corners, Key key) {
     case Key::average: {
       std::uint32_t sum = 0;
       for (const auto& c : corners) sum += c.sz;
-      // AVSZ3, AVSZ4; at most 2731 * 3 * 65535 and 2048 * 4 * 65535, which fit.
-      otz = corners.size() == 2 ? sum : (corners.size() == 3 ? zsf3 : zsf4) * sum >> 12;
+      const gte::S3_12 scale{corners.size() == 3 ? zsf3 : zsf4};
+      otz = corners.size() == 2 ? sum : static_cast<std::uint32_t>(gte::depth_average(scale, sum).otz);
     }
   }
   return std::min(otz, 65535U);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "gte/commands.h"
 #include "ot/packet.h"
 #include "scene/clip.h"
 #include "scene/frame.h"
@@ -54,11 +55,6 @@ struct Primitive {
 /// The sort key of depths sz: AVSZ3, AVSZ4 for the average; the nearest or farthest on the same scale. For
 /// two (a line) the average is their sum.
 [[nodiscard]] std::uint32_t otz_of(std::span<const Corner> corners, Key key);
-
-/// NCLIP: twice the area on the screen, above 0 if clockwise.
-[[nodiscard]] constexpr std::int32_t screen_area(gte::ScreenXy a, gte::ScreenXy b, gte::ScreenXy c) {
-  return a.x * (b.y - c.y) + b.x * (c.y - a.y) + c.x * (a.y - b.y);
-}
 
 /// One instance, projected and shaded.
 struct Submission {
@@ -217,19 +213,18 @@ class Submitter {
 
   [[nodiscard]] bool faces_us(const Corner& a, const Corner& b, const Corner& c,
                               const PacketMaterial& m) const {
-    const std::int64_t area = s_.fraction_mask == 0 ? screen_area(a.sxy, b.sxy, c.sxy) : fine_area(a, b, c);
+    const std::int64_t area = s_.fraction_mask == 0 ? gte::signed_area(a.sxy, b.sxy, c.sxy)
+                                                    : gte::signed_area(fine(a), fine(b), fine(c));
     return m.double_sided ? area != 0 : s_.mirrored ? area < 0 : area > 0;
   }
 
-  // As screen_area, in units of 1/65536 square pixel.
-  [[nodiscard]] std::int64_t fine_area(const Corner& a, const Corner& b, const Corner& c) const {
-    const auto x = [this](const Corner& k) -> std::int64_t {
-      return k.sxy.x * 256 + (k.fraction_x & s_.fraction_mask);
-    };
-    const auto y = [this](const Corner& k) -> std::int64_t {
-      return k.sxy.y * 256 + (k.fraction_y & s_.fraction_mask);
-    };
-    return x(a) * (y(b) - y(c)) + x(b) * (y(c) - y(a)) + x(c) * (y(a) - y(b));
+  // In units of 1/256 pixel.
+  struct FineXy {
+    std::int64_t x, y;
+  };
+  [[nodiscard]] FineXy fine(const Corner& c) const {
+    return {c.sxy.x * 256 + (c.fraction_x & s_.fraction_mask),
+            c.sxy.y * 256 + (c.fraction_y & s_.fraction_mask)};
   }
 
   [[nodiscard]] Corner corner_of(std::uint32_t vertex, std::uint32_t colour, ot::Uv uv) const {

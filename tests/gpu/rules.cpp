@@ -66,7 +66,8 @@ Words pictures(Blend blend) {
 /// The front drawn over the back as a sprite, as dots of one row each, and as lines.
 Words sprite(Blend blend) {
   Words words = pictures(blend);
-  add(words, ot::Rectangle{.textured = true, .semi_transparent = true, .raw = true, .width = 32, .height = 32});
+  add(words,
+      ot::Rectangle{.textured = true, .semi_transparent = true, .raw = true, .width = 32, .height = 32});
   return words;
 }
 Words columns(Blend blend) {
@@ -84,9 +85,8 @@ Words lines(Blend blend) {
   Words words = pictures(blend);
   for (std::int16_t x = 0; x < 32; ++x) {
     const ot::Rgb colour = colour_of(front_at(static_cast<unsigned>(x), 0));
-    add(words, ot::Line{.semi_transparent = true,
-                        .xy = {ot::Xy{x, 0}, ot::Xy{x, 31}},
-                        .rgb = {colour, colour}});
+    add(words,
+        ot::Line{.semi_transparent = true, .xy = {ot::Xy{x, 0}, ot::Xy{x, 31}}, .rgb = {colour, colour}});
   }
   return words;
 }
@@ -160,18 +160,17 @@ TEST_SUITE("gpu") {
     for (const Blend blend : blends) {
       for (const bool deep : {false, true}) {
         gpu::Gpu studio;
-        studio.set_canvas(gpu::canvas::Options{
-            .width = 64,
-            .height = 64,
-            .colour = deep ? gpu::canvas::Colour::bits24 : gpu::canvas::Colour::bits15});
+        studio.set_canvas(
+            gpu::canvas::Options{.width = 64,
+                                 .height = 64,
+                                 .colour = deep ? gpu::canvas::Colour::bits24 : gpu::canvas::Colour::bits15});
         studio.begin_frame();
         studio.gp0(columns(blend));
         const auto picture = studio.canvas()->layer(0);
         const auto at = [&](unsigned x, unsigned y) { return picture[std::size_t{y} * 64 + x]; };
         if (!deep) {
-          CHECK(differing(blend, [&](unsigned x, unsigned y) {
-                  return gpu::canvas::to_16_bits(at(x, y));
-                }) == 0);
+          CHECK(differing(blend, [&](unsigned x, unsigned y) { return gpu::canvas::to_16_bits(at(x, y)); }) ==
+                0);
           continue;
         }
         // The back came from VRAM, 5 bits widened to 8 as v << 3 | v >> 2; the front was sent as v << 3.

@@ -149,7 +149,7 @@ TEST_SUITE("scene") {
       gte::avsz3(r);
       CHECK(scene::otz_of(std::span(corners).subspan(1), scene::Key::average) == r.otz);
       gte::nclip(r);
-      CHECK(scene::screen_area(corners[0].sxy, corners[1].sxy, corners[2].sxy) == r.mac[0]);
+      CHECK(gte::signed_area(corners[0].sxy, corners[1].sxy, corners[2].sxy) == r.mac[0]);
     }
   }
 
