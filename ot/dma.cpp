@@ -18,7 +18,7 @@ constexpr std::uint32_t otc_control_mask = 0x51000000;
 constexpr std::uint32_t interrupt_stored = 0x00ff807f;
 
 constexpr std::uint32_t or_64k(std::uint32_t count) { return count == 0 ? 0x10000 : count; }
-constexpr bool is_outside(std::uint32_t address) { return ByteLinks::is_outside(address, 0); }
+using links::is_outside;
 
 constexpr std::uint32_t stepped(std::uint32_t control_word, std::uint32_t address, std::uint32_t words) {
   const auto bytes = 4 * words;

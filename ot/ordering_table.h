@@ -6,12 +6,12 @@
 // Not modelled: the time DMA6 takes to clear a table (ot/dma.h has its registers).
 
 #include <cassert>
-#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "ot/field.h"
 #include "ot/links.h"
 #include "ot/main_ram.h"
 
@@ -24,22 +24,20 @@ enum class Order : std::uint8_t {
 
 /// A table of `length` entries at `base` (a link; word aligned) in memory that the caller owns and that
 /// outlives the table. Nothing is written until clear().
-template <class Links>
-class BasicOrderingTable {
+class OrderingTable {
  public:
-  BasicOrderingTable(std::span<std::uint32_t> memory, std::uint32_t base, std::uint32_t length,
-                     Order order = Order::lifo)
+  OrderingTable(std::span<std::uint32_t> memory, std::uint32_t base, std::uint32_t length,
+                Order order = Order::lifo)
       : memory_(memory), base_(base), length_(length), order_(order) {
-    assert(length > 0 && base % Links::unit == 0);
-    assert(base / Links::unit + std::size_t{length} <= memory.size());
+    assert(length > 0 && base % links::unit == 0);
+    assert(base / links::unit + std::size_t{length} <= memory.size());
   }
-  BasicOrderingTable(MainRam& ram, std::uint32_t base, std::uint32_t length,
-                     Order order = Order::lifo) requires std::same_as<Links, ByteLinks>
-      : BasicOrderingTable(ram.words(), base, length, order) {}
+  OrderingTable(MainRam& ram, std::uint32_t base, std::uint32_t length, Order order = Order::lifo)
+      : OrderingTable(ram.words(), base, length, order) {}
 
   /// What OTC (DMA6) writes: entry k links to entry k-1, entry 0 ends the list.
   void clear() {
-    const auto entries = memory_.subspan(base_ / Links::unit, length_);
+    const auto entries = memory_.subspan(base_ / links::unit, length_);
     entries[0] = tag::end;
     for (std::uint32_t k = 1; k < length_; ++k) entries[k] = tag::Next::put(entry(k - 1));
     if (order_ == Order::fifo) {
@@ -67,7 +65,7 @@ class BasicOrderingTable {
   /// Puts a whole table into a bucket: a model that sorts by itself and lies in the scene as
   /// one. Call it after inner.clear() and before anything is inserted into `inner`, whose
   /// packets then find their way by themselves.
-  void insert(std::uint32_t bucket, const BasicOrderingTable& inner) {
+  void insert(std::uint32_t bucket, const OrderingTable& inner) {
     assert(tag::Next::get(at(inner.entry(0))) == tag::end);
     insert(bucket, inner.head(), inner.entry(0));
   }
@@ -75,10 +73,10 @@ class BasicOrderingTable {
   /// The tag at which drawing starts.
   [[nodiscard]] std::uint32_t head() const { return entry(length_ - 1); }
   /// The tag of one bucket: the walk passes it before the packets of the bucket.
-  [[nodiscard]] std::uint32_t entry(std::uint32_t bucket) const { return base_ + bucket * Links::unit; }
+  [[nodiscard]] std::uint32_t entry(std::uint32_t bucket) const { return base_ + bucket * links::unit; }
   /// The bucket whose entry this tag is; nothing for every other tag.
   [[nodiscard]] std::optional<std::uint32_t> bucket_of(std::uint32_t tag_address) const {
-    const auto bucket = (tag_address - base_) / Links::unit;  // wraps far beyond length below the base
+    const auto bucket = (tag_address - base_) / links::unit;  // wraps far beyond length below the base
     if (tag_address < base_ || bucket >= length_) return std::nullopt;
     return bucket;
   }
@@ -88,14 +86,12 @@ class BasicOrderingTable {
   [[nodiscard]] std::span<const std::uint32_t> memory() const { return memory_; }
 
  private:
-  std::uint32_t& at(std::uint32_t link) { return memory_[Links::index(link, memory_.size())]; }
+  std::uint32_t& at(std::uint32_t link) { return memory_[links::index(link, memory_.size())]; }
 
   std::span<std::uint32_t> memory_;
   std::uint32_t base_, length_;
   Order order_;
   std::vector<std::uint32_t> tails_;  ///< last node of each bucket; fifo only
 };
-
-using OrderingTable = BasicOrderingTable<ByteLinks>;
 
 }  // namespace ot

@@ -21,7 +21,7 @@ std::uint32_t SortedList::link(std::span<std::uint32_t> memory) {
 
   std::uint32_t next = tag::end;
   for (auto item = items_.rbegin(); item != items_.rend(); ++item) {
-    auto& last = memory[ByteLinks::index(item->last_node, memory.size())];
+    auto& last = memory[links::index(item->last_node, memory.size())];
     last = tag::Next::set(last, next);
     next = item->first_node;
   }

@@ -7,13 +7,12 @@ namespace {
 
 /// The tags of a list one by one. Stands on a tag or, when `fault` is set or the
 /// list is at its end, before it.
-template <class Links>
 struct Steps {
   std::span<const std::uint32_t> memory;
   std::uint32_t address;
   std::uint32_t from = no_tag;
 
-  [[nodiscard]] std::size_t index() const { return Links::index(address, memory.size()); }
+  [[nodiscard]] std::size_t index() const { return links::index(address, memory.size()); }
   [[nodiscard]] std::uint32_t word() const { return memory[index()]; }
   [[nodiscard]] bool at_end() const { return address == tag::end; }
   void step() {
@@ -25,11 +24,10 @@ struct Steps {
 
 /// The list is known to loop with a period of `length` tags: the first tag that is met twice, who links to
 /// it, and what lies before.
-template <class Links>
 WalkResult describe_loop(std::span<const std::uint32_t> memory, std::uint32_t first, std::size_t length) {
   WalkResult result{.end = WalkEnd::loop};
-  Steps<Links> behind{memory, first};
-  Steps<Links> ahead{memory, first};
+  Steps behind{memory, first};
+  Steps ahead{memory, first};
   const auto step_ahead = [&] {
     ++result.nodes;
     result.words += tag::Length::get(ahead.word());
@@ -53,10 +51,9 @@ std::string hex(std::uint32_t address) {
 
 }  // namespace
 
-template <class Links>
 WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first) {
   WalkResult result;
-  const auto stop = [&](WalkEnd end, const Steps<Links>& at) {
+  const auto stop = [&](WalkEnd end, const Steps& at) {
     result.end = end;
     result.bad_tag = at.address;
     result.linked_from = at.from;
@@ -66,10 +63,10 @@ WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first) 
   std::size_t remembered = memory.size();
   std::size_t since = 0;
   std::size_t limit = 1;
-  for (Steps<Links> at{memory, first}; !at.at_end(); at.step()) {
-    if (Links::is_outside(at.address, memory.size())) return stop(WalkEnd::outside_ram, at);
+  for (Steps at{memory, first}; !at.at_end(); at.step()) {
+    if (links::is_outside(at.address)) return stop(WalkEnd::outside_ram, at);
     const auto index = at.index();
-    if (index == remembered) return describe_loop<Links>(memory, first, since);
+    if (index == remembered) return describe_loop(memory, first, since);
     if (since == limit || remembered == memory.size()) {
       if (since == limit) limit *= 2;
       remembered = index;
@@ -83,9 +80,6 @@ WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first) 
   }
   return result;
 }
-
-template WalkResult validate<ByteLinks>(std::span<const std::uint32_t>, std::uint32_t);
-template WalkResult validate<WordLinks>(std::span<const std::uint32_t>, std::uint32_t);
 
 std::string WalkResult::message() const {
   const std::string from = linked_from == no_tag ? "the head of the list" : "tag " + hex(linked_from);

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "ot/field.h"
 #include "ot/links.h"
 #include "ot/main_ram.h"
 
@@ -36,25 +37,20 @@ struct WalkResult {
 
 /// Follows a list from `first` without reading payloads. Time grows with the number of tags, also for a loop
 /// (Brent's cycle search); nothing is allocated. The first tag::end met ends the list, after its payload.
-template <class Links>
 WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first);
-extern template WalkResult validate<ByteLinks>(std::span<const std::uint32_t>, std::uint32_t);
-extern template WalkResult validate<WordLinks>(std::span<const std::uint32_t>, std::uint32_t);
 
-inline WalkResult validate(const MainRam& ram, std::uint32_t first) {
-  return validate<ByteLinks>(ram.words(), first);
-}
+inline WalkResult validate(const MainRam& ram, std::uint32_t first) { return validate(ram.words(), first); }
 
 /// Calls sink(tag_address, payload) for every node, payloads of 0 words (table entries) included. The address
 /// is the link as stored; the span lies in `memory`, which the sink must not write to. Nothing is sent unless
 /// the whole list is good.
-template <class Links, class Sink>
+template <class Sink>
 WalkResult walk(std::span<const std::uint32_t> memory, std::uint32_t first, Sink&& sink) {
-  const WalkResult result = validate<Links>(memory, first);
+  const WalkResult result = validate(memory, first);
   if (!result) return result;
   std::uint32_t address = first;
   for (std::uint32_t n = 0; n < result.nodes; ++n) {
-    const auto index = Links::index(address, memory.size());
+    const auto index = links::index(address, memory.size());
     const auto word = memory[index];
     sink(address, memory.subspan(index + 1, tag::Length::get(word)));
     address = tag::Next::get(word);
@@ -64,7 +60,7 @@ WalkResult walk(std::span<const std::uint32_t> memory, std::uint32_t first, Sink
 
 template <class Sink>
 WalkResult walk(const MainRam& ram, std::uint32_t first, Sink&& sink) {
-  return walk<ByteLinks>(ram.words(), first, sink);
+  return walk(ram.words(), first, sink);
 }
 
 }  // namespace ot

@@ -138,15 +138,4 @@ TEST_SUITE("ot") {
     for (std::uint32_t at = 0; at < ram.size_bytes(); at += 4) ram.write(at, (at + 4) % ram.size_bytes());
     CHECK(validate(ram, 0) == WalkResult{WalkEnd::loop, 0, ram.size_bytes() - 4, ram.size_bytes() / 4, 0});
   }
-
-  TEST_CASE("word links reach beyond 8 MiB and stop at the end of the memory") {
-    std::vector<std::uint32_t> memory(0x300000);
-    memory[0] = 0x002fffff;
-    memory[0x2fffff] = 0x00ffffff;
-    CHECK(validate<WordLinks>(memory, 0) == WalkResult{.nodes = 2});
-    memory[0x2fffff] = 0x00300000;
-    CHECK(validate<WordLinks>(memory, 0) == WalkResult{WalkEnd::outside_ram, 0x300000, 0x2fffff, 2, 0});
-    memory[0x2fffff] = 0x01ffffff;
-    CHECK(validate<WordLinks>(memory, 0) == WalkResult{WalkEnd::payload_past_end, 0x2fffff, 0, 1, 0});
-  }
 }
