@@ -9,7 +9,7 @@
 
 namespace app {
 
-scene::Result<void> choose_target() {
+base::Result<void> choose_target() {
   const char* const wanted = std::getenv("OTTER_TARGET");
   if (wanted == nullptr) return {};
   const auto here = gpu::target_names();
@@ -21,9 +21,9 @@ scene::Result<void> choose_target() {
   std::string expected;
   for (const auto name : here) expected.append(expected.empty() ? "" : ", ").append(name);
   const bool is_known = std::ranges::find(words, wanted) != std::end(words);
-  return scene::fail("OTTER_TARGET=" + std::string(wanted) + ": " +
-                     (is_known ? "not to be had on this processor" : "no such target") +
-                     "; expected one of " + expected);
+  return base::fail("OTTER_TARGET=" + std::string(wanted) + ": " +
+                    (is_known ? "not to be had on this processor" : "no such target") + "; expected one of " +
+                    expected);
 }
 
 std::string_view target() { return gpu::target_name(); }

@@ -61,8 +61,10 @@ DepthConstants::DepthConstants(const DepthOptions& o)
     if (o.near_z * 4096 < end) nearest = static_cast<std::uint32_t>(std::ceil(o.near_z * 4096));
     farthest = static_cast<std::uint32_t>(std::min(std::floor(o.far_z * 4096), end - 1));
   }
-  low = is_linear ? 1 / o.far_z : 0;
-  high = is_linear ? 1 / o.near_z : scale;
+  // A little beyond near and far, so that what lies outside is cut after the division, to 0 and `scale`.
+  constexpr double little = 1.0 / (1LL << 48);
+  low = is_linear ? 1 / o.far_z * (1 - little) : 0;
+  high = is_linear ? 1 / o.near_z * (1 + little) : scale;
   linear_scale = is_reversed ? -scale / range : scale / range;
   linear_offset = is_reversed ? o.far_z / range * scale : -o.near_z / range * scale;
   flip = is_reversed ? ~std::uint32_t{0} : 0;

@@ -70,7 +70,7 @@ struct DepthConstants {
   double factor, zero, range, scale, at_infinity, per_inverse_z;
   /// Vertices whose depth is stepped in fixed point: 20.12, both inclusive; none where nearest > farthest.
   std::uint32_t nearest = 1, farthest = 0;
-  double low, high;                    ///< the affine quantity between near and far
+  double low, high;                    ///< the affine quantity from near to far, and its limits
   double linear_scale, linear_offset;  ///< linear: depth = 1 / quantity * scale + offset
   std::uint32_t flip, add;             ///< key = (stored ^ flip) + add
   bool equal_wins;                     ///< a fragment as near as what is there wins

@@ -127,7 +127,7 @@ struct PlainGpu::DepthPlane {
     const double scale = gpu::depth_scale(o.format), range = o.far_z - o.near_z;
     double value = start + slope * column;
     if (o.mapping == gpu::DepthMapping::linear) {
-      value = std::clamp(value, 1 / o.far_z, 1 / o.near_z);
+      value = std::max(value, 1e-300);  // behind the eye is as far as can be
       value = o.reversed ? 1.0 / value * (-scale / range) + o.far_z / range * scale
                          : 1.0 / value * (scale / range) + -o.near_z / range * scale;
     }
