@@ -1,6 +1,6 @@
 // The pixel pipeline, one small function per stage, written once in Highway vectors and compiled for every
-// dispatch target. A block is as many pixels of a row as the target has 32-bit lanes. Included by kernels.cpp
-// alone, once per target; every `if` on Mode folds away because a kernel passes a constant.
+// dispatch target. A block is as many pixels of a row as the target has 32-bit lanes. Included by
+// kernels-inl.h alone, once per target; every `if` on Mode folds away because a kernel passes a constant.
 
 #if defined(OTTER_GPU_STAGES_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef OTTER_GPU_STAGES_INL_H_
