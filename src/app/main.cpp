@@ -47,9 +47,10 @@ bool is_command(std::string_view name) {
 
 std::string version() {
 #ifdef __clang__
-  constexpr const char* compiler = "Clang " __clang_version__;
+  const std::string compiler = "Clang " + std::to_string(__clang_major__) + "." +
+                               std::to_string(__clang_minor__) + "." + std::to_string(__clang_patchlevel__);
 #else
-  constexpr const char* compiler = "GCC " __VERSION__;
+  const std::string compiler = "GCC " __VERSION__;
 #endif
   return std::string("otter " OTTER_VERSION " (commit " OTTER_COMMIT ", ") + compiler + ", target " +
          std::string(app::target()) + ")";
