@@ -8,7 +8,8 @@
 namespace gpu {
 
 void Gpu::set_canvas(const std::optional<canvas::Options>& options) {
-  if (options && canvas_ != nullptr && canvas_->options() == *options) return;
+  const bool stays = options ? canvas_ != nullptr && canvas_->options() == *options : canvas_ == nullptr;
+  if (stays) return;
   canvas_ = options ? std::make_unique<canvas::Canvas>(*options) : nullptr;
   queue_ = nullptr;
 }
