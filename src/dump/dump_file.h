@@ -20,13 +20,6 @@ base::Result<dump::Dump> read_dump(const std::filesystem::path& path);
 base::Result<void> save_dump(const std::filesystem::path& path, const dump::Dump& dump,
                              dump::DumpFormat format);
 
-/// VRAM as the name says: .png, all of it as 1024 x 512 RGB8 (bit 15 is not in it); any other, 1 MiB of
-/// little-endian halfwords.
-base::Result<void> save_vram(const std::filesystem::path& path, const gpu::Vram& vram);
-
-/// 1 MiB as save_vram writes it. Error (exit 2): unreadable, or another size.
-base::Result<void> load_vram(const std::filesystem::path& path, gpu::Vram& vram);
-
 /// One line for each command and packet up to where a replay with `options` would stop:
 ///     byte offset, port, number of the drawing command or '-', opcode, the command in words
 void list_dump(const dump::Dump& dump, const dump::ReplayOptions& options,

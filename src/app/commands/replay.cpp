@@ -14,6 +14,7 @@
 #include "base/write_file.h"
 #include "display/png.h"
 #include "display/scanout.h"
+#include "display/vram_file.h"
 #include "dump/dump_file.h"
 #include "scene/accurate.h"
 
@@ -58,7 +59,7 @@ std::uint64_t best_nanoseconds(const dump::Dump& dump, const dump::ReplayOptions
 base::Result<void> save(const Options& options, const gpu::Gpu& gpu,
                         const std::vector<std::uint32_t>& readback) {
   if (!options.vram.empty()) {
-    if (auto written = dump::save_vram(options.vram, gpu.vram()); !written) return written;
+    if (auto written = display::save_vram(options.vram, gpu.vram()); !written) return written;
   }
   if (!options.output.empty()) {
     const display::Area area = display::area_of(gpu.display());

@@ -14,7 +14,8 @@
 #include "app/commands/commands.h"
 #include "app/commands/options.h"
 #include "base/read_file.h"
-#include "dump/dump_file.h"
+#include "display/vram_file.h"
+#include "gpu/gpu.h"
 #include "gpu/trace.h"
 #include "inspect/lint.h"
 #include "ot/packet.h"
@@ -164,7 +165,7 @@ base::Result<int> walk(const Options& options) {
   if (!table) return tl::make_unexpected(table.error());
   gpu::Gpu gpu;
   if (!options.vram_in.empty()) {
-    if (auto loaded = dump::load_vram(options.vram_in, gpu.vram()); !loaded)
+    if (auto loaded = display::load_vram(options.vram_in, gpu.vram()); !loaded)
       return tl::make_unexpected(loaded.error());
   }
 
@@ -191,7 +192,7 @@ base::Result<int> walk(const Options& options) {
                       base::Exit::failed);
   }
   if (!options.vram.empty()) {
-    if (auto saved = dump::save_vram(options.vram, gpu.vram()); !saved)
+    if (auto saved = display::save_vram(options.vram, gpu.vram()); !saved)
       return tl::make_unexpected(saved.error());
   }
   return 0;
