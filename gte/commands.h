@@ -4,8 +4,8 @@
 // Notation: V0..V2 the vectors, sh = 12 if the command says sf, else 0; lowest = 0 if it says lm, else
 // -8000h; A(..) a 44-bit sum (limits.h), every partial sum checked. MACi = low 32 bits of (A >> sh), IRi =
 // MACi limited to lowest..7FFFh, i = 1..3, unless a command says otherwise. Every command begins with FLAG =
-// 0. All read whole registers and write whole registers; none fails. Source of all: psx-spx, "Geometry
-// Transformation Engine (GTE)".
+// 0. All read whole registers and write whole registers; none fails.
+// [docs/hardware.md#geometry-the-gte]
 //
 // Not modelled: time. `cycles` is data for who models it; a command reads all its inputs at once.
 
@@ -72,7 +72,7 @@ void execute(Registers& r, Command c);
 /// Writes  MAC0..3, IR0..3, SZ0..3, SXY0..2, FLAG.
 /// Quirk   bit 22 (IR3) is set iff A(3) >> 12 leaves -8000h..7FFFh, whatever sf and lm say; IR3 itself is
 /// MAC3 limited as
-///         usual, in silence.
+///         usual, in silence. [docs/hardware.md#perspective-transformation]
 void rtps(Registers& r, Command c = sdk::rtps);
 
 /// RTPT: RTPS for V0, V1, V2; only V2 makes MAC0 and IR0. SZ0 is then the SZ3 of before.
@@ -108,7 +108,7 @@ constexpr DepthAverage depth_average(S3_12 scale, std::int64_t depths) {
 
 // ---- vectors
 
-/// MVMVA: A(i) = Ti*1000h + Mi1*X + Mi2*Y + Mi3*Z with the matrix, vector and translation the word selects.
+/// MVMVA: A(i) = Ti*1000h + Mi1*X + Mi2*Y + Mi3*Z with T, M, V from the word. [docs/hardware.md#mvmva]
 /// Quirks  cv = 2 (far colour): the first product and the translation only leave their FLAG bits, the
 ///         result is Mi2*Y + Mi3*Z.   mx = 3: rows (-R<<4, R<<4, IR0), (RT13 x3), (RT22 x3), R = red of RGBC.
 void mvmva(Registers& r, Command c);

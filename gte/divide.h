@@ -29,7 +29,7 @@ struct Quotient {
 ///                  e = (2000080h - d*u) >> 8;  f = (80h + e*u) >> 8
 ///                  min(1FFFFh, (n*f + 8000h) >> 16)      a limit that no flag tells of
 /// The result is within -3..+2 of the rounded quotient. `h` and `sz3` are the registers, unsigned, eye units.
-/// Source  psx-spx, "GTE Division Inaccuracy".
+/// [docs/hardware.md#unr-table]
 constexpr Quotient divide(std::uint16_t h, std::uint16_t sz3) {
   if (h >= 2u * sz3) return {0x1ffff, true};
   const int zeros = std::countl_zero(sz3);

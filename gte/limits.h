@@ -17,7 +17,7 @@ struct Limits {
   [[nodiscard]] std::uint32_t finish() const { return flag::with_error(bits); }
 
   /// A running sum of MAC1..3, `component` 1..3: beyond 44 bits it says so and wraps, and the wrapped sum
-  /// goes on into the next addition.
+  /// goes on into the next addition. [docs/hardware.md#44-bit-accumulators]
   std::int64_t mac(int component, std::int64_t sum) {
     constexpr std::int64_t limit = std::int64_t{1} << 43;
     if (sum >= limit) [[unlikely]] {
@@ -55,7 +55,7 @@ struct Limits {
   }
   std::int16_t ir0(std::int64_t p) { return limited<std::int16_t>(p, 0, 0x1000, flag::ir0_saturated); }
 
-  /// A colour of the FIFO: MACi >> 4, toward minus infinity. `component` 1..3 = red, green, blue.
+  /// A colour: MACi >> 4, toward minus infinity. `component` 1..3: r, g, b. [docs/hardware.md#colour-fifo]
   std::uint8_t colour(int component, std::int32_t mac_value) {
     return limited<std::uint8_t>(mac_value >> 4, 0, 0xff, flag::red_saturated >> (component - 1));
   }

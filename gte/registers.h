@@ -40,7 +40,7 @@ static_assert(sizeof(Colour) == 4);
 
 using Matrix = std::array<std::array<S3_12, 3>, 3>;  ///< [row][column]; row r makes component r
 
-/// FLAG, cop2r63: one bit for each thing that went wrong in the last command.
+/// FLAG, cop2r63: one bit for each thing that went wrong in the last command. [docs/hardware.md#flag]
 namespace flag {
 inline constexpr std::uint32_t mac1_positive = 1u << 30;  ///< MAC2, MAC3: the next two lower bits
 inline constexpr std::uint32_t mac1_negative = 1u << 27;  ///< MAC2, MAC3: the next two lower bits
@@ -102,7 +102,7 @@ constexpr std::uint32_t leading_equal_bits(std::uint32_t value) {
 }
 
 /// Reads register `number`, 0..31 data (MFC2, SWC2), 32..63 control (CFC2), with the hardware's sign
-/// extension. Source  psx-spx, "GTE Registers".
+/// extension. [docs/hardware.md#gte-registers]
 constexpr std::uint32_t read(const Registers& r, unsigned number);
 
 /// Writes register `number` (MTC2, LWC2, CTC2) with its side effects: SXYP pushes the screen FIFO, IRGB sets

@@ -1,7 +1,7 @@
 #pragma once
 // The registers of DMA channels 2 (GPU) and 6 (OTC, which clears ordering tables), to the bit: what a program
-// sees that drives them by itself.   [psx-spx, DMA Channels; captures of ps1-tests dma/otc-test, dma/dpcr,
-// dma/chain-looping, dma/chopping]
+// sees that drives them by itself.   [docs/hardware.md#dma-registers, docs/hardware.md#otc,
+// docs/hardware.md#linked-list-dma]
 //
 // Not modelled: time. Nothing moves until run(), and a run moves as much as it can. Where the sources
 // disagree: a channel's flag needs its mask bit and the master enable; a linked list with the direction bit

@@ -32,9 +32,9 @@ struct Field {
   }
 };
 
-/// The first word of every packet.
+/// The first word of every packet. [docs/hardware.md#linked-list-dma]
 namespace tag {
-using Next = Field<0, 24>;    ///< link to the next tag: a byte address in RAM   [psx-spx, Linked List DMA]
+using Next = Field<0, 24>;    ///< link to the next tag: a byte address in RAM
 using Length = Field<24, 8>;  ///< payload words after this tag, 0..255
 
 inline constexpr std::uint32_t end = 0xffffff;  ///< the link that ends a list

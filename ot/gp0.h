@@ -1,6 +1,6 @@
 #pragma once
 // Every word of GPU port 0: which command it opens, how long the command is, and its fields. The packet
-// builders and the decoder of the GPU share these names.   [psx-spx, GPU Commands]
+// builders and the decoder of the GPU share these names.   [docs/hardware.md#gp0-commands]
 //
 // Not here: GP1 (gp1.h), and what a command does (src/gpu).
 
@@ -269,7 +269,7 @@ using All = Field<0, 2>;
 }  // namespace mask_bits
 
 /// E7h-EFh: the view-space depth (unsigned 20.12) and the fractions of the screen coordinates of the vertices
-/// of the next polygon. The console ignores these codes.   [ours]
+/// of the next polygon. The console ignores these codes.   [docs/hardware.md#depth-annotation]
 namespace annotation {
 inline constexpr std::uint32_t depth_high = 0xe7;  ///< first: high bytes of v0, v1, v2; a second one: of v3
 inline constexpr std::uint32_t depth_low = 0xe8;   ///< + v: the low 24 bits of v's depth

@@ -1,7 +1,7 @@
 #pragma once
 // Every word of GPU port 1, which commands the display, and GPUSTAT, which answers: their fields, encode
-// beside decode. Whoever sets, shows or executes a control word shares these names.   [psx-spx, GPU Display
-// Control Commands (GP1)]
+// beside decode. Whoever sets, shows or executes a control word shares these names.
+// [docs/hardware.md#gp1-commands]
 //
 // Not here: what a command does (src/gpu).
 
@@ -136,7 +136,7 @@ using Number = Field<0, 4>;
 
 }  // namespace ot::gp1
 
-/// GPUSTAT.   [psx-spx, GPU Status Register]
+/// GPUSTAT.   [docs/hardware.md#gpustat]
 namespace ot::gpu_status {
 using DrawMode = Field<0, 11>;  ///< E1h bits 0-10
 using Mask = Field<11, 2>;      ///< E6h bits 0-1

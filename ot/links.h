@@ -1,6 +1,6 @@
 #pragma once
 // How the 24 link bits of a tag find a word of memory: byte addresses, of which bits 0-1 are ignored, those
-// below bit 23 are mirrored into a smaller RAM, and bit 23 is outside RAM.   [psx-spx, Linked List DMA]
+// below bit 23 are mirrored into a smaller RAM, and bit 23 is outside RAM. [docs/hardware.md#linked-list-dma]
 
 #include <cstddef>
 #include <cstdint>

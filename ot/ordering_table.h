@@ -35,7 +35,7 @@ class OrderingTable {
   OrderingTable(MainRam& ram, std::uint32_t base, std::uint32_t length, Order order = Order::lifo)
       : OrderingTable(ram.words(), base, length, order) {}
 
-  /// What OTC (DMA6) writes: entry k links to entry k-1, entry 0 ends the list.
+  /// What OTC (DMA6) writes: entry k links to entry k-1, entry 0 ends the list. [docs/hardware.md#otc]
   void clear() {
     const auto entries = memory_.subspan(base_ / links::unit, length_);
     entries[0] = tag::end;

@@ -38,7 +38,7 @@ struct Area {
 }
 
 /// The picture that `area` of `vram` shows. `vram` holds 1024 x 512 pixels, rows from the top.
-/// Source  psx-spx, "GPU Display Control Commands (GP1)"; 24 bit: bytes R, G, B from byte 2x of the row on.
+/// 24 bit: bytes R, G, B from byte 2x of the row on. [docs/hardware.md#display-area]
 [[nodiscard]] base::Picture scan_out(std::span<const std::uint16_t> vram, const Area& area);
 
 /// All of VRAM as 15-bit pixels: 1024 x 512.

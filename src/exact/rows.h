@@ -1,7 +1,7 @@
 #pragma once
 // Which pixels a triangle covers: the hardware's rule, with sub-pixel corners allowed. Sample
 // points are the integer coordinates; left and top edges are inside, right and bottom edges are
-// not. [reference: psx-spx, ps1-tests]
+// not. [docs/hardware.md#top-left-rule]
 
 #include <algorithm>
 #include <array>

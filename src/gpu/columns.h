@@ -2,8 +2,8 @@
 // Which pixels a triangle covers: the hardware's rule, exactly, for everyone who must agree with it.
 //
 // The sample point of pixel (x, y) is (x, y) itself. Left and top edges belong to the triangle, right and
-// bottom ones do not, so two triangles that share an edge share no pixel and leave no hole. [ps1-tests
-// triangle, quad]
+// bottom ones do not, so two triangles that share an edge share no pixel and leave no hole.
+// [docs/hardware.md#top-left-rule]
 
 #include <algorithm>
 #include <array>

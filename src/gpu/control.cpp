@@ -117,7 +117,7 @@ void Gpu::next_field() {
   update_skipped_rows();
 }
 
-/// Drawing to the displayed field is off by default: its rows are skipped. [psx-spx, GP0(E1h) bit 10]
+/// Drawing to the displayed field is off by default: its rows are skipped. [docs/hardware.md#interlace-skip]
 void Gpu::update_skipped_rows() {
   const bool skips =
       display_.is_480_lines() && display_.is_interlaced() && !current_.state.draws_to_display();

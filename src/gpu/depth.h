@@ -1,6 +1,6 @@
 #pragma once
 // Depth formats of the z-buffer: what a view-space depth becomes when it is stored, and the plane of stored
-// depths. The console has none of this; see design.md, "z-buffer", for the annotation words that carry z.
+// depths. The console has none of this; see docs/hardware.md#depth-annotation for the words that carry z.
 
 #include <algorithm>
 #include <bit>

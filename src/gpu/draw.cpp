@@ -81,7 +81,7 @@ std::uint32_t Gpu::allowed_mode(std::uint32_t word) const {
   return texture_disable_allowed_ ? word : word & ~gp0::draw_mode::TextureDisable::mask;
 }
 
-/// The page halfword of a textured polygon stays in force. [ps1-tests gp0-e1]
+/// The page halfword of a textured polygon stays in force. [docs/hardware.md#draw-mode]
 void Gpu::use_texture_page(std::uint32_t halfword) {
   std::uint32_t& mode = current_.state.draw_mode;
   mode = (mode & ~gp0::draw_mode::page_bits) | (allowed_mode(halfword) & gp0::draw_mode::page_bits);

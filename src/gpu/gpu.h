@@ -1,6 +1,6 @@
 #pragma once
-// The console's depthless 2D GPU: words in, pixels out, to the bit. [psx-spx, GPU;
-// hardware captures of ps1-tests]
+// The console's depthless 2D GPU: words in, pixels out, to the bit.
+// [docs/hardware.md]
 //
 // Beyond the console, and only when asked: a z-buffer fed by annotation words, and a trace of who wrote what.
 // Not modelled: time (every command completes at once, so the FIFO is always empty), the texture cache

@@ -260,7 +260,7 @@ STAGE void draw_block(D d, Mode m, const Job& job, const Constants<D>& constants
   const auto texel_bits = texel(d, m, job, constants.palette, walk);
   const auto texel16 = narrow(d, texel_bits);
   if (m.surface.texture != TexelFormat::none) {
-    wanted = hn::And(wanted, hn::Ne(texel16, hn::Zero(d16)));  // texel 0000h is no texel
+    wanted = hn::And(wanted, hn::Ne(texel16, hn::Zero(d16)));  // docs/hardware.md#texel-0000h
     if (m.depth) {
       const auto kind = hn::And(texel16, hn::Set(d16, job.depth.texel_mask));
       wanted = hn::And(wanted, hn::Eq(kind, hn::Set(d16, job.depth.texel_value)));

@@ -1,4 +1,4 @@
-// Lines: a step of one pixel along the longer axis, both ends drawn. [ps1-tests lines]
+// Lines: a step of one pixel along the longer axis, both ends drawn. [docs/hardware.md#lines]
 //
 // One pixel at a time: neighbours lie in different rows. A kernel is the body below with its mode pinned.
 

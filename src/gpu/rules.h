@@ -15,25 +15,25 @@
 
 namespace gpu {
 
-/// No two vertices of a triangle or a line may lie further apart, or it is not drawn at all. [size rule]
+/// Vertices of a triangle or line further apart: it is not drawn at all. [docs/hardware.md#size-rule]
 inline constexpr int max_distance_x = 1023, max_distance_y = 511;
 constexpr bool is_too_large(int width, int height) {
   return width > max_distance_x || height > max_distance_y;
 }
 
 /// Which of three corners attributes are counted from, by their x: the leftmost, ties as the hardware has
-/// them. [core vertex]
+/// them. [docs/hardware.md#core-vertex]
 template <class X>
 constexpr std::size_t core_vertex(X a, X b, X c) {
   if (b <= a) return c <= b ? 2 : 1;
   return c < a ? 2 : 0;
 }
 
-/// Added to 8-bit channels before they are cut to 5 bits, by y & 3 and x & 3 of the pixel. [dither matrix]
+/// Added to 8-bit channels before the cut to 5 bits, by y & 3 and x & 3. [docs/hardware.md#dither-matrix]
 inline constexpr std::array<std::array<std::int8_t, 4>, 4> dither_matrix{
     {{-4, 0, -3, 1}, {2, -2, 3, -1}, {-3, 1, -4, 0}, {3, -1, 2, -2}}};
 
-/// Lines always, flat ones too; polygons where a colour varies or lights a texel; nothing else. [dithering]
+/// Lines always; polygons where a colour varies or lights a texel; no other. [docs/hardware.md#dither-matrix]
 inline bool is_dithered(const Primitive& p) {
   if (!p.state.dithers()) return false;
   if (p.kind == Kind::line) return true;
@@ -45,7 +45,7 @@ inline Blend blend_of(const Primitive& p) {
   return p.is_semi_transparent() ? p.state.blend() : Blend::opaque;
 }
 
-/// One channel, `most` its largest value: 31 on the console. [semi-transparency]
+/// One channel, `most` its largest value: 31 on the console. [docs/hardware.md#semi-transparency]
 constexpr int blend_channel(Blend how, int back, int front, int most = 31) {
   switch (how) {
     case Blend::opaque:
@@ -77,7 +77,7 @@ constexpr std::uint16_t blend_pixel(Blend how, std::uint16_t back, std::uint16_t
 }
 
 /// The texels of a rectangle: of its top left pixel, and the steps to the right and down. A flip along x
-/// starts at an odd texel. [ps1-tests texture-flip]
+/// starts at an odd texel. [docs/hardware.md#rectangles]
 struct SpriteTexels {
   int u, v, u_step, v_step;
 };
@@ -88,7 +88,7 @@ inline SpriteTexels sprite_texels(const Primitive& p) {
 }
 
 /// A line segment from its left end: a step of one pixel along the longer axis, both ends drawn.
-/// [ps1-tests lines]
+/// [docs/hardware.md#lines]
 struct LinePath {
   std::int64_t x, y, step_x, step_y;           ///< 32.32
   std::array<std::int32_t, 3> colour, step_c;  ///< 8.12

@@ -12,7 +12,7 @@
 
 namespace gpu {
 
-/// No primitive has more rows. [size rule]
+/// No primitive has more rows. [docs/hardware.md#size-rule]
 inline constexpr std::size_t max_rows = max_distance_y + 1;
 
 /// Room for the spans of one primitive, written from the front.

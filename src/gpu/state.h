@@ -39,7 +39,7 @@ struct DrawState {
     return gp0::draw_mode::FlipY::get(draw_mode) != 0;
   }  ///< rectangles only
 
-  // Texture window: u' = (u & keep) | set, both 8-bit. [psx-spx, Texture Window]
+  // Texture window: u' = (u & keep) | set, both 8-bit. [docs/hardware.md#texture-window]
   [[nodiscard]] std::uint8_t window_keep_u() const { return static_cast<std::uint8_t>(~(mask_u() * 8)); }
   [[nodiscard]] std::uint8_t window_keep_v() const { return static_cast<std::uint8_t>(~(mask_v() * 8)); }
   [[nodiscard]] std::uint8_t window_set_u() const {

@@ -93,8 +93,8 @@ void store_row(const Surface& surface, const DrawState& state, int x, int y, con
   });
 }
 
-/// Overlap downwards smears, and so does overlap to the right over more than a piece. [ps1-tests
-/// vram-to-vram-overlap]
+/// Overlap downwards smears, and so does overlap to the right over more than a piece.
+/// [docs/hardware.md#vram-to-vram-copy]
 void copy_rectangle(const Surface& surface, const Primitive& primitive) {
   const Vertex &to = primitive.vertices[0], &from = primitive.vertices[1];
   const int width = primitive.width, height = primitive.height;

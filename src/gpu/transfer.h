@@ -41,7 +41,7 @@ void for_each_copied_piece(const Primitive& copy, F&& f) {
 }
 
 /// The GPU's copy of the palette in use: loaded when a textured primitive names another one, and not when
-/// VRAM changes under it. [ps1-tests clut-cache]
+/// VRAM changes under it. [docs/hardware.md#clut-cache]
 class ClutCache {
  public:
   /// 256 entries, and two halfwords that a vector may read and nobody uses.

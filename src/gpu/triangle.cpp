@@ -83,7 +83,7 @@ Box drawn_box(const DrawState& state, const Corners& c, const SpanList& list) {
   return {std::max(left, state.left()), top, std::min(right, state.right()), bottom};
 }
 
-/// Rows run away from the core vertex; the lower part comes first unless the core is on top.
+/// Rows run away from the core vertex; lower part first unless it is on top. [docs/hardware.md#row-order]
 void order_from_core(SpanList& list, std::size_t upper, const Corners& sorted, Point core) {
   if (core == sorted[0]) return;
   const auto begin = list.spans.begin(), end = begin + static_cast<std::ptrdiff_t>(list.count);
@@ -112,7 +112,7 @@ class Quotient {
   double factor_;
 };
 
-/// Gradients of n attributes, with 12 of their 24 bits of fraction.
+/// Gradients of n attributes, 12 bits of fraction. [docs/hardware.md#attribute-interpolation]
 template <std::size_t n>
 void put_gradients(std::array<Gradient*, n> out, const Three& t, const Vertex& core, int area,
                    std::array<std::uint8_t Vertex::*, n> fields) {

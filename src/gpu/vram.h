@@ -39,7 +39,7 @@ class Vram {
   /// All zero.
   Vram() : pixels_(size + padding) {}
 
-  /// The pixel at x, y; both wrap, negative ones too. [psx-spx, VRAM addressing]
+  /// The pixel at x, y; both wrap, negative ones too. [docs/hardware.md#vram]
   [[nodiscard]] std::uint16_t& at(int x, int y) { return pixels_[offset(x, y)]; }
   [[nodiscard]] std::uint16_t at(int x, int y) const { return pixels_[offset(x, y)]; }
 

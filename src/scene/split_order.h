@@ -1,6 +1,6 @@
 #pragma once
 // Visibility bsp: collects the primitives of a frame and puts them in an order that is right at every pixel,
-// splitting polygons where there is none (inspect/bsp.h).
+// splitting polygons where there is none (exact/split.h).
 //
 // Lines have no depth, so they have no place in that order: each comes after the last polygon that is farther
 // by its key. [ours]

@@ -1,4 +1,4 @@
-// The rule book's worked examples, by hand: what each command leaves in VRAM.
+// Examples of the rules of docs/hardware.md, worked by hand: what each command leaves in VRAM.
 
 #include <doctest/doctest.h>
 

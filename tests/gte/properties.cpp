@@ -21,7 +21,7 @@ gte::Registers any(Random& random) {
   return tests::registers(random, static_cast<Kind>(random.below(static_cast<std::uint32_t>(Kind::count))));
 }
 
-/// The division as the reference has it, step by step and in 64 bits, sharing
+/// The division as docs/hardware.md#unr-table has it, step by step and in 64 bits, sharing
 /// nothing with the one under test.
 gte::Quotient plain_division(std::uint64_t h, std::uint64_t sz) {
   if (h >= 2 * sz) return {0x1ffff, true};
@@ -62,7 +62,7 @@ TEST_SUITE("gte") {
     CHECK(sum == 25186);
   }
 
-  TEST_CASE("the division gives the reference's examples") {
+  TEST_CASE("the division gives the examples of its formula") {
     struct {
       unsigned h, sz, q;
       bool overflow;
@@ -91,7 +91,7 @@ TEST_SUITE("gte") {
     }
   }
 
-  TEST_CASE("the quotients of a whole row of depths have the reference's sums") {
+  TEST_CASE("the quotients of a whole row of depths have the formula's sums") {
     struct {
       std::uint16_t h;
       std::uint64_t sum;
@@ -106,7 +106,7 @@ TEST_SUITE("gte") {
 
   // The SIMD division sees each pair through RTPS: with RT33 = 1.0, SZ3 is VZ0 or VZ0 + 8000h, and OFX = 0,
   // IR1 = 1 give SX = q >> 16 and the fraction its next 8 bits; IR1 = 256 and less than 4 give the rest.
-  TEST_CASE("long: the division is the reference's for all 2^32 inputs, on every target" * doctest::skip()) {
+  TEST_CASE("long: the division is the formula's for all 2^32 inputs, on every target" * doctest::skip()) {
     std::vector<gte::Vertex> vertices(0x10000);
     std::vector<std::uint32_t> flags(vertices.size());
     std::vector<gte::ScreenXy> sxy(vertices.size());
@@ -144,7 +144,7 @@ TEST_SUITE("gte") {
     CHECK(wrong == 0);
   }
 
-  TEST_CASE("the division is the reference's for random inputs and all powers of two with their neighbours") {
+  TEST_CASE("the division is the formula's for random inputs and all powers of two with their neighbours") {
     Random random(7);
     const auto edge = [&] {
       const std::uint32_t v = 1u << random.below(17);

@@ -1,5 +1,5 @@
 #pragma once
-// The slow, plain reading of the rule book that fast kernels are compared with: one pixel at a time, every
+// The slow, plain reading of docs/hardware.md that fast kernels are compared with: one pixel at a time, every
 // condition where the rules have it, nothing shared with src/gpu but the depth formulas.
 
 #include <array>

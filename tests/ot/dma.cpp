@@ -69,7 +69,7 @@ void example_2(Machine& m) {
 }  // namespace
 
 TEST_SUITE("ot") {
-  TEST_CASE("worked example 1: OTC links each entry to the one below and leaves its neighbours alone") {
+  TEST_CASE("OTC links each entry to the one below and leaves its neighbours alone") {
     Machine m;
     m.ram.write(0x122ffc, 1);
     m.ram.write(0x123010, 2);
@@ -85,7 +85,7 @@ TEST_SUITE("ot") {
     CHECK(m.bcr(6) == 4);
   }
 
-  TEST_CASE("worked example 3: DMA2 sends the payloads in list order and ends at the marker") {
+  TEST_CASE("DMA2 sends the payloads in list order and ends at the marker") {
     Machine m;
     example_2(m);
     m.dma.write(dma::dicr, 0x00840000);
@@ -99,7 +99,7 @@ TEST_SUITE("ot") {
     CHECK_FALSE(m.dma.take_interrupt());
   }
 
-  TEST_CASE("worked example 4: a link with bit 23 that is not the marker is a bus error") {
+  TEST_CASE("a link with bit 23 that is not the marker is a bus error") {
     Machine m;
     m.ram.write(0x123000, 0x00900000);
     m.dma.write(dma::dicr, 0x00840000);
@@ -110,7 +110,7 @@ TEST_SUITE("ot") {
     CHECK(m.dicr() == 0x80848000);
   }
 
-  TEST_CASE("worked example 5: links reach RAM through its mirrors") {
+  TEST_CASE("links reach RAM through its mirrors") {
     Machine m;
     m.ram.write(0x123004, 0x01323000);
     m.ram.write(0x123008, 0xabcd);
@@ -121,7 +121,7 @@ TEST_SUITE("ot") {
     CHECK(m.chcr(2) == 0x00000401);
   }
 
-  TEST_CASE("worked example 6: a list that loops stays busy until CHCR is cleared") {
+  TEST_CASE("a list that loops stays busy until CHCR is cleared") {
     Machine m;
     m.ram.write(0x123000, 0x00123000);
     CHECK(m.start(2, 0x123000, 0, list, 500) == 500);
@@ -134,7 +134,7 @@ TEST_SUITE("ot") {
     CHECK_FALSE(m.dma.is_busy(2));
   }
 
-  TEST_CASE("worked example 7: slices move MADR and count blocks down, a burst leaves both alone") {
+  TEST_CASE("slices move MADR and count blocks down, a burst leaves both alone") {
     Machine m;
     for (std::uint32_t n = 0; n < 12; ++n) m.ram.write(0x130000 + 4 * n, n);
     m.start(2, 0x130000, 0x00030004, write_blocks);
@@ -150,7 +150,7 @@ TEST_SUITE("ot") {
     CHECK(m.chcr(2) == 0x00000001);
   }
 
-  TEST_CASE("worked example 8: a count of 0 clears 65536 entries") {
+  TEST_CASE("a count of 0 clears 65536 entries") {
     Machine m;
     m.ram.write(0x05fffc, 77);
     m.start(6, 0x09fffc, 0, clear);

@@ -29,7 +29,7 @@ TEST_SUITE("ot") {
     CHECK(F::get_signed(F::put_signed(-1)) == -1);
   }
 
-  TEST_CASE("every opcode is the command that the reference's table says") {
+  TEST_CASE("every opcode is the command that the table of opcodes says") {
     for (std::uint32_t op = 0; op < 256; ++op) {
       CAPTURE(op);
       Command expected = Command::nop;

@@ -45,7 +45,7 @@ TEST_SUITE("ot") {
     CHECK(table.head() == 0x12300c);
   }
 
-  TEST_CASE("inserting gives the memory of worked example 2") {
+  TEST_CASE("inserting links a packet behind the entry of its bucket") {
     MainRam ram(RamSize::mib2);
     OrderingTable table(ram, 0x123000, 4);
     table.clear();

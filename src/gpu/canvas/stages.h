@@ -98,7 +98,7 @@ inline bool test_depth(const Target& target, const Paint& paint, const Planes& p
                      [](std::uint8_t bits) { return bits != 0; });
 }
 
-/// Attribute `plane` as 8.8 fixed point, exactly the console's bits. [reference 5.3]
+/// `plane` as 8.8 fixed point, the console's bits. [docs/hardware.md#attribute-interpolation]
 inline void interpolate(const IntegerPlane& plane, int shift, const Positions& positions,
                         std::array<std::int32_t, run_length>& out) {
   positions.each(plane, [&](std::size_t i, std::uint64_t value) {
@@ -193,7 +193,7 @@ inline void fetch_texels(const Paint& paint, int count, Fragments& f) {
 
 /// Modulation, fog, dither, quantisation: the colour that is blended or stored. With texels widened as v << 3
 /// and the low three bits cut, (texel * colour) >> 7 gives the console's (texel5 * colour) >> 4 >> 3.
-/// [reference 6.2, 6.3]
+/// [docs/hardware.md#texture-modulation]
 template <bool textured>
 inline void shade(const Paint& paint, const Run& run, const std::array<std::int32_t, run_length>& fog,
                   Fragments& f) {
@@ -235,7 +235,7 @@ constexpr Pixel add_saturated(Pixel a, Pixel b) {
 }
 
 /// B = canvas, F = new, three bytes each. With `quantise` f8f8f8 these are the console's formulas on five
-/// bits, to the bit; with ffffff the same formulas on eight. [reference 6.5]
+/// bits, to the bit; with ffffff the same formulas on eight. [docs/hardware.md#semi-transparency]
 template <Blend mode>
 constexpr Pixel blend(Pixel back, Pixel front, Pixel quantise) {
   const Pixel b = back & 0xffffffU;
