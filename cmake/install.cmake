@@ -3,10 +3,30 @@ include(CMakePackageConfigHelpers)
 
 install(TARGETS build_flags base gte ot gpu exact inspect EXPORT otter-targets)
 install(EXPORT otter-targets NAMESPACE otter:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
-foreach(folder IN ITEMS gte ot src/base src/gpu src/exact src/inspect)
-  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/otter
-          FILES_MATCHING PATTERN "*.h")
-endforeach()
+# The headers that other projects may include, and with them those that they include; all others may change at any time.
+# tests/consumer/run compiles all.
+set(public_headers
+  base/result.h
+  gte/batch.h gte/check.h gte/commands.h gte/divide.h gte/limits.h
+  ot/command_stream.h ot/describe.h ot/dma.h ot/gp0.h ot/gp1.h ot/main_ram.h ot/ordering_table.h ot/packet.h
+  ot/sort.h ot/walker.h
+  gpu/canvas/canvas.h gpu/canvas/resolve.h gpu/canvas/sample_pattern.h gpu/gpu.h
+  exact/depth_order.h
+  inspect/check.h inspect/history.h inspect/json.h inspect/maps.h inspect/report.h inspect/truth.h)
+set(installed_headers)
+while(public_headers)
+  list(POP_FRONT public_headers header)
+  list(APPEND installed_headers ${header})
+  find_file(path ${header} PATHS ${PROJECT_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/src NO_DEFAULT_PATH NO_CACHE REQUIRED)
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${path} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/otter/${folder})
+  file(STRINGS ${path} included REGEX "^#include \"")
+  list(TRANSFORM included REPLACE "^#include \"([^\"]+)\".*" "\\1")
+  list(APPEND public_headers ${included})
+  list(REMOVE_DUPLICATES public_headers)
+  list(REMOVE_ITEM public_headers ${installed_headers})
+  unset(path)
+endwhile()
 
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/otter-config.cmake.in ${CMAKE_BINARY_DIR}/otter-config.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
