@@ -49,9 +49,9 @@ std::string hex(std::uint32_t address) {
   return text;
 }
 
-}  // namespace
-
-WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first) {
+/// Where the list ends, or how it fails to, unless that takes more than `max_steps`: then too_long, without
+/// the tag.
+WalkResult find_end(std::span<const std::uint32_t> memory, std::uint32_t first, std::uint64_t max_steps) {
   WalkResult result;
   const auto stop = [&](WalkEnd end, const Steps& at) {
     result.end = end;
@@ -74,11 +74,30 @@ WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first) 
     }
     const auto length = tag::Length::get(memory[index]);
     if (index + 1 + length > memory.size()) return stop(WalkEnd::payload_past_end, at);
+    if (result.nodes == max_steps) return stop(WalkEnd::too_long, at);
     ++since;
     ++result.nodes;
     result.words += length;
   }
   return result;
+}
+
+/// The list has more good tags than `max_nodes`.
+WalkResult cut(std::span<const std::uint32_t> memory, std::uint32_t first, std::uint32_t max_nodes) {
+  WalkResult result{.end = WalkEnd::too_long, .nodes = max_nodes};
+  Steps at{memory, first};
+  for (std::uint32_t n = 0; n < max_nodes; ++n, at.step()) result.words += tag::Length::get(at.word());
+  result.bad_tag = at.address;
+  result.linked_from = at.from;
+  return result;
+}
+
+}  // namespace
+
+WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first, std::uint32_t max_nodes) {
+  // A loop of n tags, those before it included, is found within 3 n steps.
+  const WalkResult result = find_end(memory, first, 3 * std::uint64_t{max_nodes} + 3);
+  return result.nodes > max_nodes ? cut(memory, first, max_nodes) : result;
 }
 
 std::string WalkResult::message() const {
@@ -90,6 +109,9 @@ std::string WalkResult::message() const {
       return from + " links to " + hex(bad_tag) + ", outside RAM";
     case WalkEnd::payload_past_end:
       return "the payload of tag " + hex(bad_tag) + " (linked from " + from + ") runs past the end of RAM";
+    case WalkEnd::too_long:
+      return "the list goes on after " + std::to_string(nodes) + " tags, with tag " + hex(bad_tag) +
+             " (linked from " + from + ")";
     case WalkEnd::done:
       break;
   }

@@ -38,6 +38,21 @@ std::vector<std::uint32_t> sent(const MainRam& ram, std::uint32_t first) {
   return words;
 }
 
+struct Sent {
+  WalkResult result;
+  std::vector<std::uint32_t> words;
+  bool operator==(const Sent&) const = default;
+};
+
+Sent sent_to_fault(const MainRam& ram, std::uint32_t first, std::uint32_t max_nodes) {
+  Sent sent;
+  sent.result =
+      walk_to_fault(ram.words(), first, max_nodes, [&](std::uint32_t, std::span<const std::uint32_t> p) {
+        sent.words.insert(sent.words.end(), p.begin(), p.end());
+      });
+  return sent;
+}
+
 }  // namespace
 
 TEST_SUITE("ot") {
@@ -131,6 +146,48 @@ TEST_SUITE("ot") {
       CHECK(words == (expected ? expected.words : 0));
     }
     for (const int count : ends) CHECK(count > 50);  // every end was met
+  }
+
+  TEST_CASE("a walk to the fault sends what lies before it, each tag of a loop once") {
+    MainRam ram(RamSize::mib2);
+    ram.write(0x1000, 0x01002000);
+    ram.write(0x1004, 11);
+    ram.write(0x2000, 0x01003000);
+    ram.write(0x2004, 21);
+    ram.write(0x3000, 0x01002000);
+    ram.write(0x3004, 31);
+    CHECK(sent_to_fault(ram, 0x1000, 100) ==
+          Sent{{WalkEnd::loop, 0x2000, 0x3000, 3, 3}, std::vector<std::uint32_t>{11, 21, 31}});
+    ram.write(0x3000, 0x01900000);
+    CHECK(sent_to_fault(ram, 0x1000, 100) ==
+          Sent{{WalkEnd::outside_ram, 0x900000, 0x3000, 3, 3}, std::vector<std::uint32_t>{11, 21, 31}});
+    CHECK(sent_to_fault(ram, 0x900000, 100) == Sent{{WalkEnd::outside_ram, 0x900000, no_tag, 0, 0}, {}});
+  }
+
+  TEST_CASE("a walk to the fault sends as many tags as it may and names the next one") {
+    MainRam ram(RamSize::mib2);
+    ram.write(0x1000, 0x01002000);
+    ram.write(0x1004, 11);
+    ram.write(0x2000, 0x01003000);
+    ram.write(0x2004, 21);
+    ram.write(0x3000, 0x00ffffff);
+    const Sent cut{{WalkEnd::too_long, 0x3000, 0x2000, 2, 2}, {11, 21}};
+    CHECK(sent_to_fault(ram, 0x1000, 2) == cut);
+    CHECK(cut.result.message() ==
+          "the list goes on after 2 tags, with tag 003000h (linked from tag 002000h)");
+    CHECK(sent_to_fault(ram, 0x1000, 3) == Sent{{.nodes = 3, .words = 2}, {11, 21}});
+    CHECK(sent_to_fault(ram, 0x1000, 0) == Sent{{WalkEnd::too_long, 0x1000, no_tag, 0, 0}, {}});
+  }
+
+  TEST_CASE("a loop is called a loop as long as its tags are no more than allowed") {
+    for (std::uint32_t length = 1; length < 40; ++length) {
+      for (std::uint32_t back = 0; back < length; ++back) {
+        MainRam ram(RamSize::mib2);
+        for (std::uint32_t t = 0; t < length; ++t) ram.write(16 * t, 16 * (t + 1 < length ? t + 1 : back));
+        CHECK(validate(ram.words(), 0, length) == validate(ram, 0));
+        CHECK(validate(ram.words(), 0, length - 1).end == WalkEnd::too_long);
+      }
+    }
   }
 
   TEST_CASE("a loop through all of RAM is found") {
