@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <system_error>
 
+#include "base/file_kind.h"
 #include "base/read_file.h"
 
 namespace load {
@@ -13,19 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Format {
-  std::string_view extension;
+  base::FileKind kind;
   std::size_t most_bytes;
   base::Result<LoadedScene> (*parse)(std::string_view, const Source&);
 };
 
-constexpr std::array formats{Format{".obj", limits::obj_bytes, &parse_obj},
-                             Format{".x3d", limits::x3d_bytes, &parse_x3d}};
-
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
+constexpr std::array formats{Format{base::FileKind::obj, limits::obj_bytes, &parse_obj},
+                             Format{base::FileKind::x3d, limits::x3d_bytes, &parse_x3d}};
 
 bool is_inside(const fs::path& folder, const fs::path& file) {
   return std::mismatch(folder.begin(), folder.end(), file.begin(), file.end()).first == folder.end();
@@ -59,12 +53,12 @@ base::Result<fs::path> resolve(const fs::path& folder, std::string_view referenc
 }
 
 base::Result<LoadedScene> load(const fs::path& file) {
-  const std::string extension = lower_case(file.extension().string());
-  const auto* format =
-      std::find_if(formats.begin(), formats.end(), [&](const Format& f) { return f.extension == extension; });
+  const auto kind = base::kind_of_file(file);
+  if (!kind) return tl::make_unexpected(kind.error());
+  const auto format = std::ranges::find(formats, *kind, &Format::kind);
   if (format == formats.end()) {
     return base::fail(file.string() +
-                      ": cannot tell what kind of scene this is, expected a name in .obj or .x3d");
+                      ": cannot tell what kind of scene this is, expected OBJ (.obj) or X3D (.x3d)");
   }
   auto bytes = base::read_regular_file(file, format->most_bytes);
   if (!bytes) return tl::make_unexpected(bytes.error());

@@ -45,7 +45,7 @@ struct Source {
   std::filesystem::path folder;
 };
 
-/// Reads a scene file; its extension (.obj, .x3d, any case) says which kind it is.
+/// Reads a scene file; what it is, base::kind_of tells.
 /// Error (bad_input): missing, unreadable, too large, malformed, another kind of file.
 base::Result<LoadedScene> load(const std::filesystem::path& file);
 
