@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
-#include "app/commands/options.h"
 #include "app/target.h"
 #include "commit.h"
 
@@ -71,7 +71,7 @@ int run(int argc, char** argv) {
   for (const auto& command : app::commands) {
     CLI::App* sub = program.add_subcommand(command.name, command.help);
     sub->footer(std::string("Examples:\n") + command.examples);
-    actions.emplace_back(sub, command.add(*sub));
+    actions.emplace_back(sub, command.add(app::Arguments(*sub)));
   }
 
   const std::string first = argc > 1 ? argv[1] : "";

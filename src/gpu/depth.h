@@ -45,6 +45,12 @@ double depth_scale(DepthFormat format);
 /// Example: near 10, far 1000, bits32, hyperbolic: 20 -> 2169175402.
 std::uint32_t stored_depth(const DepthOptions& options, double z);
 
+/// View-space depth (unsigned 20.12) in the middle of bucket 0..length-1 of an ordering table whose keys are
+/// OTZ = 2 z: what stands for the depth of a polygon that brings none. [ours]
+constexpr std::uint32_t depth_of_bucket(std::uint32_t bucket, std::uint32_t length) {
+  return static_cast<std::uint32_t>((std::uint64_t{bucket} * 2 + 1) * (65536ULL / 4 << 12) / length);
+}
+
 /// What the options come to, computed once. Depth is made from a quantity that is affine on the screen: of
 /// hyperbolic depth that depth itself, 0..scale; of linear depth 1/z.
 struct DepthConstants {

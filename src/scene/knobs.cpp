@@ -29,6 +29,9 @@ inline constexpr std::array words<DepthMapping>{string_view("hyperbolic"), strin
 template <>
 inline constexpr std::array words<DepthTest>{string_view("less"), string_view("lequal")};
 template <>
+inline constexpr std::array words<WithoutDepth>{string_view("error"), string_view("list-order"),
+                                                string_view("bucket")};
+template <>
 inline constexpr std::array words<Transform>{string_view("gte"), string_view("float"), string_view("double")};
 template <>
 inline constexpr std::array words<Position>{string_view("integer"), string_view("4"), string_view("16"),
@@ -227,7 +230,8 @@ constexpr std::array table{
              set_distance<&Knobs::near_z>},
     KnobInfo{"far", "1e-6..1e9", "z that is stored as the farthest depth", get_number<&Knobs::far_z>,
              set_distance<&Knobs::far_z>},
-    KnobInfo{"bucket-depth", "off|on", "a polygon without depth gets its bucket's", WORD(bucket_depth)},
+    KnobInfo{"without-depth", "error|list-order|bucket",
+             "what a polygon that brings no depth does to a z-buffer", WORD(without_depth)},
     KnobInfo{"transform", "gte|float|double", "arithmetic of the vertex transform", WORD(transform)},
     KnobInfo{"position", "integer|4|16|256", "vertex positions are multiples of 1, 1/4, 1/16 or 1/256 pixel",
              WORD(position)},

@@ -17,6 +17,12 @@ enum class Visibility : std::uint8_t { ot, sorted, bsp, zbuffer };
 enum class Key : std::uint8_t { average, nearest, farthest };
 enum class BucketOrder : std::uint8_t { lifo, fifo };
 using gpu::DepthFormat, gpu::DepthMapping, gpu::DepthTest;
+/// What a polygon that brings no depth does to a z-buffer.
+enum class WithoutDepth : std::uint8_t {
+  error,       ///< the frame is refused
+  list_order,  ///< drawn where it stands in the list, neither tested nor stored
+  bucket,      ///< drawn at the depth its bucket of the ordering table stands for
+};
 enum class Transform : std::uint8_t { gte, float32, float64 };
 enum class Position : std::uint8_t {
   integer,
@@ -62,9 +68,9 @@ struct Knobs {
   DepthMapping depth_mapping = DepthMapping::hyperbolic;
   DepthTest depth_test = DepthTest::less;
   bool depth_reversed = false;
-  double near_z = 16;         ///< view-space units; the depth formats' near and far
-  double far_z = 65535;       ///< view-space units
-  bool bucket_depth = false;  ///< a polygon without depth gets its bucket's
+  double near_z = 16;    ///< view-space units; the depth formats' near and far
+  double far_z = 65535;  ///< view-space units
+  WithoutDepth without_depth = WithoutDepth::error;
   Transform transform = Transform::gte;
   Position position = Position::integer;
   TextureAddress texture = TextureAddress::affine;

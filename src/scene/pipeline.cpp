@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gpu/canvas/canvas.h"
+#include "gpu/depth.h"
 #include "gpu/gpu.h"
 #include "ot/walker.h"
 #include "scene/accurate.h"
@@ -17,6 +18,7 @@ class Marker {
  public:
   Marker(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs, gpu::Gpu& gpu)
       : gpu_(gpu), table_address_(frame.table_address), buckets_(frame.buckets) {
+    by_bucket_ = knobs.visibility == Visibility::zbuffer && knobs.without_depth == WithoutDepth::bucket;
     const bool splits = knobs.visibility == Visibility::bsp;
     if (splits || (knobs.visibility == Visibility::sorted && gpu.trace() != nullptr))
       marks_ = builder.marks();
@@ -24,13 +26,17 @@ class Marker {
   ~Marker() {
     gpu_.set_limits(std::nullopt);
     set_bucket(gpu::no_bucket);
+    gpu_.set_default_depth(std::nullopt);
   }
   Marker(const Marker&) = delete;
   Marker& operator=(const Marker&) = delete;
 
   void at(std::uint32_t tag) {
     const std::uint32_t bucket = (tag - table_address_) / 4;
-    if (tag >= table_address_ && bucket < buckets_) set_bucket(bucket);
+    if (tag >= table_address_ && bucket < buckets_) {
+      set_bucket(bucket);
+      if (by_bucket_) gpu_.set_default_depth(gpu::depth_of_bucket(bucket, buckets_));
+    }
     if (next_ == marks_.size() || marks_[next_].tag != tag) return;
     const NodeMark& mark = marks_[next_++];
     gpu_.set_limits(mark.limits);
@@ -46,6 +52,7 @@ class Marker {
   std::uint32_t table_address_, buckets_;
   std::vector<NodeMark> marks_;
   std::size_t next_ = 0;
+  bool by_bucket_;
 };
 
 base::Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs,
@@ -83,11 +90,11 @@ base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& 
   gpu.gp1(FrameBuilder::show_gp1(frame));
   drawing += Clock::now() - start;
   frame.stats.raster_ms = std::chrono::duration<double, std::milli>(drawing).count();
-  if (end.polygons_without_depth != 0) {
+  if (end.polygons_without_depth != 0 && knobs.without_depth == WithoutDepth::error) {
     return base::fail(std::to_string(end.polygons_without_depth) +
                           " polygons without depth, the first is drawing command " +
                           std::to_string(end.first_without_depth) +
-                          ": --bucket-depth draws them at their bucket's",
+                          ": --without-depth list-order or bucket draws them",
                       base::Exit::failed);
   }
   return {};

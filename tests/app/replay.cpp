@@ -197,8 +197,9 @@ TEST_SUITE("otter") {
   }
 
   TEST_CASE(
-      "what record --annotate writes is replayed by a z-buffer, what it writes without is refused with exit "
-      "1") {
+      "what record --annotate writes is replayed by a z-buffer, what it writes without is drawn in list "
+      "order "
+      "with one warning, or refused with exit 1") {
     const Folder folder;
     REQUIRE(folder.otter("record crates -o with.psxgpu --annotate --frames 2 --format v1").status == 0);
     REQUIRE(folder.otter("record crates -o without.psxgpu.zst").status == 0);
@@ -209,7 +210,19 @@ TEST_SUITE("otter") {
     CHECK(folder.otter("replay with.psxgpu --frame 1 --vram a.bin").status == 0);
     CHECK(folder.otter("replay without.psxgpu.zst --frame 1 --vram b.bin").status == 0);
     CHECK(contents(folder.path / "a.bin") == contents(folder.path / "b.bin"));
-    const auto refused = folder.otter("replay without.psxgpu.zst --visibility zbuffer --vram c.bin");
+    const auto warned = folder.otter("replay without.psxgpu.zst --visibility zbuffer --vram w.bin");
+    CHECK(warned.status == 0);
+    CHECK(is_one_line(warned.err));
+    CHECK(mentions(warned.err, "polygons without depth, the first is drawing command "));
+    CHECK(mentions(warned.err, "drawn in list order"));
+    CHECK(contents(folder.path / "w.bin") == contents(folder.path / "b.bin"));
+    const auto buckets =
+        folder.otter("replay without.psxgpu.zst --visibility zbuffer --without-depth bucket --vram c.bin");
+    CHECK(buckets.status == 2);
+    CHECK(mentions(buckets.err, "--without-depth bucket: without.psxgpu.zst has no buckets"));
+    CHECK_FALSE(folder.has("c.bin"));
+    const auto refused =
+        folder.otter("replay without.psxgpu.zst --visibility zbuffer --without-depth error --vram c.bin");
     CHECK(refused.status == 1);
     CHECK(mentions(refused.err, "polygons without depth"));
     CHECK_FALSE(folder.has("c.bin"));

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -247,13 +248,64 @@ TEST_SUITE("otter") {
     CHECK(z.substr(2 * 4, 2) == green);
   }
 
-  TEST_CASE("walk through a z-buffer exits 1 where a polygon has no depth") {
+  // Both in bucket 1: the list draws the square after the triangle; equal depths show the first.
+  TEST_CASE("--without-depth says what a polygon without depth does to a z-buffer") {
+    const Words blue_square{0x28ff0000, 0x00000000, 0x00000004, 0x00040000, 0x00040004};
+    Image ram;
+    ram.node(table + 4, 0x2100, {});
+    ram.node(0x2100, 0x2200, green_triangle);
+    ram.node(0x2200, table, blue_square);
+    ram.node(table, end, {});
     const Folder folder;
-    folder.put("ram.bin", two_packets().bytes);
-    const auto walked = folder.otter("walk ram.bin --head 100C --visibility zbuffer --vram v.bin");
-    CHECK(walked.status == 1);
-    CHECK(is_one_line(walked.err));
-    CHECK(mentions(walked.err, "1 polygons without depth"));
+    folder.put("ram.bin", ram.bytes);
+    const auto walk = [&](const std::string& more) {
+      return folder.otter("walk ram.bin --head 1004 --visibility zbuffer --vram v.bin " + more);
+    };
+    const std::string green("\xe0\x03", 2), blue("\x00\x7c", 2);
+
+    const auto in_order = walk("--table 1000,2");
+    CHECK(in_order.status == 0);
+    CHECK(is_one_line(in_order.err));
+    CHECK(mentions(in_order.err,
+                   "2 polygons without depth, the first is drawing command 1: drawn in list order"));
+    CHECK(contents(folder.path / "v.bin").substr(0, 2) == blue);
+
+    const auto by_bucket = walk("--table 1000,2 --without-depth bucket");
+    CHECK(by_bucket.status == 0);
+    CHECK(by_bucket.err.empty());
+    CHECK(contents(folder.path / "v.bin").substr(0, 2) == green);
+
+    std::filesystem::remove(folder.path / "v.bin");
+    const auto refused = walk("--without-depth error");
+    CHECK(refused.status == 1);
+    CHECK(is_one_line(refused.err));
+    CHECK(mentions(refused.err, "2 polygons without depth"));
     CHECK_FALSE(folder.has("v.bin"));
+    const auto no_table = walk("--without-depth bucket");
+    CHECK(no_table.status == 2);
+    CHECK(is_one_line(no_table.err));
+    CHECK(mentions(no_table.err, "--without-depth bucket: ram.bin has no buckets"));
+    CHECK_FALSE(folder.has("v.bin"));
+  }
+
+  // Bucket b of N stands for z = (b + 1/2) * 32768 / N: 8,192 and 24,576 here.
+  TEST_CASE("a polygon without depth is nearer or farther than one with depth, as its bucket is") {
+    const auto annotated = [](std::uint32_t z) {  // z in view-space units, below 4096
+      return Words{0xe8000000 | z << 12, 0xe9000000 | z << 12, 0xea000000 | z << 12, 0xe7000000};
+    };
+    const Words red_triangle{0x200000f8, 0x00000000, 0x00000004, 0x00040000};
+    Image ram;
+    ram.node(table + 4, 0x2000, {});
+    ram.node(0x2000, 0x2100, annotated(4000));
+    ram.node(0x2100, table, red_triangle);
+    ram.node(table, 0x2200, {});
+    ram.node(0x2200, end, green_triangle);  // bucket 0: z = 8192, behind 4000
+    const Folder folder;
+    folder.put("ram.bin", ram.bytes);
+    CHECK(folder
+              .otter("walk ram.bin --head 1004 --table 1000,2 --visibility zbuffer --without-depth bucket "
+                     "--vram v.bin")
+              .status == 0);
+    CHECK(contents(folder.path / "v.bin").substr(0, 2) == std::string("\x1f\0", 2));
   }
 }

@@ -3,6 +3,7 @@
 
 #include "scene/knobs.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -11,14 +12,14 @@
 #include <utility>
 #include <vector>
 
-#include "app/commands/options.h"
+#include "app/commands/arguments.h"
 
 namespace {
 
 void read_command_line(std::vector<std::string> words) {
   CLI::App program("fuzz", "otter");
   scene::Knobs knobs;
-  app::add_knobs(program, knobs);
+  app::Arguments(program).knobs(knobs);
   try {
     std::reverse(words.begin(), words.end());  // CLI11 wants them so
     program.parse(std::move(words));

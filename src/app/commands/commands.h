@@ -2,10 +2,10 @@
 // The subcommands of `otter`. To add one: write its file with an `add_...` function, name it here, list it in
 // CMakeLists.txt.
 
-#include <CLI/CLI.hpp>
 #include <array>
 #include <functional>
 
+#include "app/commands/arguments.h"
 #include "base/result.h"
 
 namespace app {
@@ -14,26 +14,26 @@ namespace app {
 /// one line on stderr after the program's name, and its exit status used.
 using Action = std::function<base::Result<int>()>;
 
-/// One row of the table. `add` declares the options on `sub` and returns the action that reads them; the
-/// options' storage is owned by the action (a shared_ptr it captures). `examples` is printed under the
+/// One row of the table. `add` declares the options in `arguments` and returns the action that reads them;
+/// the options' storage is owned by the action (a shared_ptr it captures). `examples` is printed under the
 /// options by --help.
 struct Command {
   const char* name;
   const char* help;
-  Action (*add)(CLI::App& sub);
+  Action (*add)(Arguments arguments);
   const char* examples;
 };
 
-Action add_cost(CLI::App& sub);
-Action add_effects(CLI::App& sub);
-Action add_gte_check(CLI::App& sub);
-Action add_list(CLI::App& sub);
-Action add_record(CLI::App& sub);
-Action add_inspect(CLI::App& sub);
-Action add_render(CLI::App& sub);
-Action add_replay(CLI::App& sub);
-Action add_run(CLI::App& sub);
-Action add_walk(CLI::App& sub);
+Action add_cost(Arguments arguments);
+Action add_effects(Arguments arguments);
+Action add_gte_check(Arguments arguments);
+Action add_list(Arguments arguments);
+Action add_record(Arguments arguments);
+Action add_inspect(Arguments arguments);
+Action add_render(Arguments arguments);
+Action add_replay(Arguments arguments);
+Action add_run(Arguments arguments);
+Action add_walk(Arguments arguments);
 
 /// In the order in which `otter --help` lists them.
 inline constexpr std::array commands{

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
@@ -156,24 +157,18 @@ base::Result<int> run_cost(Options& o) {
 
 }  // namespace
 
-Action add_cost(CLI::App& sub) {
+Action add_cost(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  sub.add_option("scene", options->scenes, "scenes or files [crates corridor]")->type_name("SCENE|FILE");
-  sub.add_option("--axes", options->axes, "measure these axes alone, and no combinations")
-      ->type_name("A,B")
-      ->delimiter(',');
-  sub.add_flag("--quick", options->quick, "fewer settings: under a minute");
-  sub.add_option("--rounds", options->rounds, "how often every setting is timed [9]")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000));
-  sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [30]")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1'000'000'000));
-  sub.add_option("--size", options->size, "display mode [320x240]")->type_name("WxH");
-  sub.add_option("--json", options->json, "write all numbers as JSON; - is standard output")
-      ->type_name("FILE");
-  sub.add_option("--csv", options->csv, "write one line a setting")->type_name("FILE");
-  sub.add_option("--html", options->html, "write one page with plots and pictures")->type_name("FILE");
+  arguments.positionals("scene", "SCENE|FILE", options->scenes, "scenes or files [crates corridor]");
+  arguments.words("--axes", "A,B", options->axes, "measure these axes alone, and no combinations");
+  arguments.flag("--quick", options->quick, "fewer settings: under a minute");
+  arguments.number("--rounds", "N", options->rounds, 1, 1000, "how often every setting is timed [9]");
+  arguments.number("--frame", "N", options->frame, std::uint32_t{0}, std::uint32_t{1'000'000'000},
+                   "frame N shows the scene after N/60 s [30]");
+  arguments.text("--size", "WxH", options->size, "display mode [320x240]");
+  arguments.text("--json", "FILE", options->json, "write all numbers as JSON; - is standard output");
+  arguments.text("--csv", "FILE", options->csv, "write one line a setting");
+  arguments.text("--html", "FILE", options->html, "write one page with plots and pictures");
   return [options] { return run_cost(*options); };
 }
 

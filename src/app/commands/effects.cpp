@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/open_scene.h"
-#include "app/commands/options.h"
 #include "base/write_file.h"
 
 namespace app {
@@ -40,17 +40,14 @@ base::Result<int> run_effects(const Options& options) {
 
 }  // namespace
 
-Action add_effects(CLI::App& sub) {
+Action add_effects(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  sub.add_option("scene", options->scene, "a scene of `otter list`, or a file")
-      ->type_name("SCENE|FILE")
-      ->required();
-  sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [0]")
-      ->type_name("N")
-      ->check(CLI::Range(0, 1'000'000'000));
-  sub.add_option("--json", options->json, "write the report as JSON; - is standard output")
-      ->type_name("FILE");
-  add_knobs(sub, options->knobs);
+  arguments.positional("scene", "SCENE|FILE", options->scene, "a scene of `otter list`, or a file",
+                       Presence::required);
+  arguments.number("--frame", "N", options->frame, std::uint32_t{0}, std::uint32_t{1'000'000'000},
+                   "frame N shows the scene after N/60 s [0]");
+  arguments.text("--json", "FILE", options->json, "write the report as JSON; - is standard output");
+  arguments.knobs(options->knobs);
   return [options] { return run_effects(*options); };
 }
 

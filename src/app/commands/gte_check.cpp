@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "base/read_file.h"
 #include "gte/check.h"
@@ -32,12 +33,12 @@ base::Result<int> gte_check(const Options& options) {
 
 }  // namespace
 
-Action add_gte_check(CLI::App& sub) {
+Action add_gte_check(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  sub.add_option("file", options->file, "idx,op,cmd,in0..in63,out0..out63 in hexadecimal, header row first")
-      ->type_name("FILE.csv")
-      ->required();
-  sub.add_flag("--all", options->all, "print every register that differs, not the first 20");
+  arguments.positional("file", "FILE.csv", options->file,
+                       "idx,op,cmd,in0..in63,out0..out63 in hexadecimal, header row first",
+                       Presence::required);
+  arguments.flag("--all", options->all, "print every register that differs, not the first 20");
   return [options] { return gte_check(*options); };
 }
 

@@ -12,12 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
-#include "app/commands/options.h"
 #include "app/commands/progress.h"
+#include "app/commands/without_depth.h"
 #include "app/machine.h"
+#include "base/file_kind.h"
 #include "base/write_file.h"
 #include "demos/demos.h"
 #include "display/png.h"
@@ -119,7 +121,7 @@ class SceneSource : public Source {
 class DumpSource : public Source {
  public:
   DumpSource(std::string name, dump::Dump dump, const scene::Knobs& knobs)
-      : name_(std::move(name)), dump_(std::move(dump)), order_(order_of(knobs)) {
+      : name_(std::move(name)), dump_(std::move(dump)), knobs_(knobs) {
     gpu_.set_depth(scene::depth_options(knobs));
   }
 
@@ -129,14 +131,10 @@ class DumpSource : public Source {
     gpu_.set_trace(&trace);
     const auto end = play_until(number);
     gpu_.set_trace(nullptr);
-    if (end.polygons_without_depth != 0) {
-      return base::fail(name_ + ": " + std::to_string(end.polygons_without_depth) +
-                            " polygons without depth, the first is drawing command " +
-                            std::to_string(end.first_without_depth),
-                        base::Exit::failed);
-    }
+    if (auto judged = judge_without_depth(name_, knobs_, end); !judged)
+      return tl::make_unexpected(judged.error());
     const auto vram = gpu_.vram().pixels();
-    Watched watched{inspect::inspect(trace, {.order = order_, .scene = name_, .frame = number}),
+    Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
                     {vram.begin(), vram.end()}};
     watched.report.lint.push_back(
         {"dropped", "", "not available: what a program leaves out before drawing is not in its dump"});
@@ -167,7 +165,7 @@ class DumpSource : public Source {
 
   std::string name_;
   dump::Dump dump_;
-  inspect::Order order_;
+  scene::Knobs knobs_;
   gpu::Gpu gpu_;
   std::size_t next_ = 0;
   std::uint64_t seen_ = 0;
@@ -226,12 +224,10 @@ base::Result<std::optional<Position>> pixel_of(const Options& options) {
   return Position{static_cast<int>(column), static_cast<int>(row)};
 }
 
-// Told by its first bytes, so that any name will do.
 bool is_dump(const std::string& source) {
-  std::error_code ignored;
-  if (demos::find(source) != nullptr || !std::filesystem::is_regular_file(source, ignored)) return false;
-  const auto extension = std::filesystem::path(source).extension();
-  return extension != ".obj" && extension != ".x3d";
+  if (demos::find(source) != nullptr) return false;
+  const auto kind = base::kind_of_file(source);
+  return kind && *kind == base::FileKind::dump;
 }
 
 base::Result<std::unique_ptr<Source>> open(const Options& options) {
@@ -240,6 +236,8 @@ base::Result<std::unique_ptr<Source>> open(const Options& options) {
     if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
       return base::fail("--visibility: a dump is drawn in its own order; expected ot or zbuffer");
     }
+    if (auto checked = check_without_depth(options.source, options.knobs, false); !checked)
+      return tl::make_unexpected(checked.error());
     auto dump = dump::read_dump(options.source);
     if (!dump) return tl::make_unexpected(dump.error());
     return std::make_unique<DumpSource>(options.source, std::move(*dump), options.knobs);
@@ -337,35 +335,27 @@ base::Result<int> run(const Options& options) {
 
 }  // namespace
 
-Action add_inspect(CLI::App& sub) {
+Action add_inspect(Arguments arguments) {
   const auto options = std::make_shared<Options>();
   const auto file = [&](const char* name, std::string& path, const char* help) {
-    sub.add_option(name, path, help)->type_name("FILE")->take_last();
+    arguments.text(name, "FILE", path, help);
   };
-  sub.add_option("source", options->source, "a scene of `otter list`, an .obj or .x3d file, or a GPU dump")
-      ->type_name("SCENE|DUMP")
-      ->required();
-  sub.add_option("--frame", options->frame,
-                 "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]")
-      ->type_name("N")
-      ->take_last();
-  sub.add_option("--frames", options->frames, "several frames, both ends included")
-      ->type_name("A..B")
-      ->take_last();
+  arguments.positional("source", "SCENE|DUMP", options->source,
+                       "a scene of `otter list`, an .obj or .x3d file, or a GPU dump", Presence::required);
+  arguments.text("--frame", "N", options->frame,
+                 "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]");
+  arguments.text("--frames", "A..B", options->frames, "several frames, both ends included");
   file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
   file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
   file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");
   file("--ids", options->ids, "PNG: a colour per primitive that is seen");
   file("--truth", options->truth, "PNG: the picture as it should be");
   file("--depth-map", options->depth_map, "PNG: 1/z of the true owners");
-  sub.add_option("--pixel", options->pixel, "tell the history of a pixel of the picture")
-      ->type_name("X,Y")
-      ->take_last();
-  sub.add_option("--max", options->max, "exit with 1 if more pixels are wrong")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1} << 40))
-      ->take_last();
-  add_knobs(sub, options->knobs);
+  arguments.text("--pixel", "X,Y", options->pixel, "tell the history of a pixel of the picture");
+  arguments.number("--max", "N", options->max, std::int64_t{0}, std::int64_t{1} << 40,
+                   "exit with 1 if more pixels are wrong");
+  options->knobs.without_depth = foreign_without_depth;  // scenes have depths
+  arguments.knobs(options->knobs);
   return [options] { return run(*options); };
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "demos/demos.h"
 
@@ -35,10 +36,11 @@ base::Result<int> list(const Options& options) {
 
 }  // namespace
 
-Action add_list(CLI::App& sub) {
+Action add_list(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  auto* names = sub.add_flag("--names", options->names, "names alone, one a line");
-  sub.add_flag("--long", options->is_long, "what to look for in each, too")->excludes(names);
+  arguments.flag("--names", options->names, "names alone, one a line");
+  arguments.flag("--long", options->is_long, "what to look for in each, too");
+  arguments.exclude("--long", "--names");
   return [options] { return list(*options); };
 }
 

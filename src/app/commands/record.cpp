@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/open_scene.h"
-#include "app/commands/options.h"
 #include "app/commands/progress.h"
 #include "app/commands/recording.h"
 #include "dump/dump_file.h"
@@ -55,23 +55,19 @@ base::Result<int> record_scene(const Options& options) {
 
 }  // namespace
 
-Action add_record(CLI::App& sub) {
+Action add_record(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  sub.add_option("scene", options->scene, "a scene of `otter list`, or a file")
-      ->type_name("SCENE|FILE")
-      ->required();
-  sub.add_option("-o,--output", options->output, "the dump to write; packed if its name ends in .zst or .xz")
-      ->type_name("FILE")
-      ->required();
-  sub.add_option("--frames", options->frames, "record frames 0..N-1 [1]")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint32_t{1}, std::uint32_t{1'000'000}));
-  sub.add_option("--format", options->format, "standard: v1r1, aligned; v1: the older form [standard]")
-      ->type_name("standard|v1")
-      ->check(CLI::IsMember({"standard", "v1"}));
-  sub.add_flag("--annotate", options->annotate,
-               "write depths, so that the dump replays through the z-buffer, too");
-  add_knobs(sub, options->knobs);
+  arguments.positional("scene", "SCENE|FILE", options->scene, "a scene of `otter list`, or a file",
+                       Presence::required);
+  arguments.text("-o,--output", "FILE", options->output,
+                 "the dump to write; packed if its name ends in .zst or .xz", Presence::required);
+  arguments.number("--frames", "N", options->frames, std::uint32_t{1}, std::uint32_t{1'000'000},
+                   "record frames 0..N-1 [1]");
+  arguments.choice("--format", options->format, {"standard", "v1"},
+                   "standard: v1r1, aligned; v1: the older form [standard]");
+  arguments.flag("--annotate", options->annotate,
+                 "write depths, so that the dump replays through the z-buffer, too");
+  arguments.knobs(options->knobs);
   return [options] { return record_scene(*options); };
 }
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/open_scene.h"
-#include "app/commands/options.h"
 #include "app/commands/progress.h"
 #include "app/machine.h"
 #include "demos/demos.h"
@@ -84,19 +84,16 @@ base::Result<int> render(const Options& options) {
 
 }  // namespace
 
-Action add_render(CLI::App& sub) {
+Action add_render(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  sub.add_option("scene", options->scene, "a scene of `otter list`, or an .obj or .x3d file")
-      ->type_name("SCENE|FILE");
-  sub.add_option("-o,--output", options->output, "the PNG file to write")->type_name("FILE");
-  sub.add_option("--frame", options->frame, "frame N shows the scene after N/60 s [0]")
-      ->type_name("N")
-      ->check(CLI::Range(std::int64_t{0}, std::int64_t{1'000'000'000}).description(""))
-      ->take_last();
-  sub.add_flag("--all", options->all, "render every scene of `otter list`");
-  sub.add_option("-d,--directory", options->directory, "with --all: where to write SCENE.png [out]")
-      ->type_name("DIR");
-  add_knobs(sub, options->knobs);
+  arguments.positional("scene", "SCENE|FILE", options->scene,
+                       "a scene of `otter list`, or an .obj or .x3d file");
+  arguments.text("-o,--output", "FILE", options->output, "the PNG file to write");
+  arguments.number("--frame", "N", options->frame, std::int64_t{0}, std::int64_t{1'000'000'000},
+                   "frame N shows the scene after N/60 s [0]");
+  arguments.flag("--all", options->all, "render every scene of `otter list`");
+  arguments.text("-d,--directory", "DIR", options->directory, "with --all: where to write SCENE.png [out]");
+  arguments.knobs(options->knobs);
   return [options] { return render(*options); };
 }
 

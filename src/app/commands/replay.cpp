@@ -9,8 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
-#include "app/commands/options.h"
+#include "app/commands/without_depth.h"
 #include "base/write_file.h"
 #include "display/png.h"
 #include "display/scanout.h"
@@ -93,6 +94,8 @@ base::Result<int> replay(const Options& options) {
     return base::fail("--visibility: a dump can be drawn by ot, in its own order, or by zbuffer");
   }
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  if (auto checked = check_without_depth(options.dump, options.knobs, false); !checked)
+    return tl::make_unexpected(checked.error());
   auto dump = dump::read_dump(options.dump);
   if (!dump) return tl::make_unexpected(dump.error());
   if (auto checked = check(options, *dump); !checked) return tl::make_unexpected(checked.error());
@@ -111,12 +114,8 @@ base::Result<int> replay(const Options& options) {
   gpu.set_depth(scene::depth_options(options.knobs));
   limits.readback = options.readback.empty() ? nullptr : &readback;
   const auto end = dump::replay(*dump, gpu, limits);
-  if (end.polygons_without_depth != 0) {
-    return base::fail(
-        options.dump + ": " + std::to_string(end.polygons_without_depth) +
-            " polygons without depth, needed by --visibility zbuffer (record --annotate writes depths)",
-        base::Exit::failed);
-  }
+  if (auto judged = judge_without_depth(options.dump, options.knobs, end); !judged)
+    return tl::make_unexpected(judged.error());
   if (auto saved = save(options, gpu, readback); !saved) return tl::make_unexpected(saved.error());
   limits.readback = nullptr;
   if (options.repeat > 0) {
@@ -128,29 +127,25 @@ base::Result<int> replay(const Options& options) {
 
 }  // namespace
 
-Action add_replay(CLI::App& sub) {
+Action add_replay(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  const auto from_1 = CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40);
-  sub.add_option("dump", options->dump, "a GPU dump (v1r1 or v1), plain or packed as .zst or .xz")
-      ->type_name("DUMP")
-      ->required();
-  sub.add_option("--vram", options->vram, "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords")
-      ->type_name("FILE");
-  sub.add_option("-o,--output", options->output, "write the display area as a PNG")->type_name("FILE");
-  sub.add_option("--frame", options->frame, "stop at the Nth VSync packet, from 1")
-      ->type_name("N")
-      ->check(from_1);
-  sub.add_option("--until", options->until, "stop after the Kth drawing command, from 1")
-      ->type_name("K")
-      ->check(from_1);
-  sub.add_option("--repeat", options->repeat, "replay N times more and print ns_per_replay, the fastest")
-      ->type_name("N")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
-  sub.add_flag("--list", options->list, "print every command in words");
-  sub.add_option("--readback", options->readback, "write the words that the dump reads back")
-      ->type_name("FILE");
-  add_knobs(sub, options->knobs,
-            {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far"});
+  constexpr std::uint64_t most = std::uint64_t{1} << 40;
+  arguments.positional("dump", "DUMP", options->dump,
+                       "a GPU dump (v1r1 or v1), plain or packed as .zst or .xz", Presence::required);
+  arguments.text("--vram", "FILE", options->vram,
+                 "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords");
+  arguments.text("-o,--output", "FILE", options->output, "write the display area as a PNG");
+  arguments.number("--frame", "N", options->frame, std::uint64_t{1}, most,
+                   "stop at the Nth VSync packet, from 1");
+  arguments.number("--until", "K", options->until, std::uint64_t{1}, most,
+                   "stop after the Kth drawing command, from 1");
+  arguments.number("--repeat", "N", options->repeat, std::uint64_t{1}, std::uint64_t{1'000'000'000},
+                   "replay N times more and print ns_per_replay, the fastest");
+  arguments.flag("--list", options->list, "print every command in words");
+  arguments.text("--readback", "FILE", options->readback, "write the words that the dump reads back");
+  options->knobs.without_depth = foreign_without_depth;
+  arguments.knobs(options->knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",
+                                   "near", "far", "without-depth"});
   return [options] { return replay(*options); };
 }
 

@@ -11,10 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
-#include "app/commands/options.h"
+#include "app/commands/without_depth.h"
 #include "base/read_file.h"
 #include "display/vram_file.h"
+#include "gpu/depth.h"
 #include "gpu/gpu.h"
 #include "gpu/trace.h"
 #include "inspect/lint.h"
@@ -128,8 +130,8 @@ void print_lint(const std::vector<inspect::LintItem>& items) {
 /// Draws a list that is known to be good. There is no drawing area before the first
 /// list sets one: all of VRAM.
 gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head,
-                   const std::optional<inspect::TableRange>& table, gpu::Gpu& gpu, gpu::Trace& trace,
-                   Buckets& buckets) {
+                   const std::optional<inspect::TableRange>& table, bool by_bucket, gpu::Gpu& gpu,
+                   gpu::Trace& trace, Buckets& buckets) {
   std::array<std::uint32_t, 2> area{};
   ot::encode(ot::DrawArea{}, area);
   gpu.gp0(area);
@@ -141,6 +143,7 @@ gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head,
     if (table && at >= table->address && (at - table->address) / 4 < table->length) {
       trace.bucket = (at - table->address) / 4;
       buckets.visited.push_back(trace.bucket);
+      if (by_bucket) gpu.set_default_depth(gpu::depth_of_bucket(trace.bucket, table->length));
     }
     const auto draws = trace.draws.size();
     gpu.gp0(payload);
@@ -163,6 +166,8 @@ base::Result<int> walk(const Options& options) {
   if (!head) return tl::make_unexpected(head.error());
   const auto table = table_option(options.table, *ram);
   if (!table) return tl::make_unexpected(table.error());
+  if (auto checked = check_without_depth(options.image, options.knobs, table->has_value()); !checked)
+    return tl::make_unexpected(checked.error());
   gpu::Gpu gpu;
   if (!options.vram_in.empty()) {
     if (auto loaded = display::load_vram(options.vram_in, gpu.vram()); !loaded)
@@ -180,17 +185,15 @@ base::Result<int> walk(const Options& options) {
   gpu::Trace trace;
   trace.keep_history = true;
   Buckets buckets;
-  const auto end = draw(*ram, *head, *table, gpu, trace, buckets);
+  const auto end = draw(*ram, *head, *table, options.knobs.without_depth == scene::WithoutDepth::bucket, gpu,
+                        trace, buckets);
   std::printf("drawing commands: %zu\n", trace.draws.size());
   if (*table) buckets.print();
   if (const auto unsorted = buckets.order()) lint.push_back(*unsorted);
   std::ranges::copy(inspect::lint_draws(trace), std::back_inserter(lint));
   print_lint(lint);
-  if (end.polygons_without_depth != 0) {
-    return base::fail(options.image + ": " + std::to_string(end.polygons_without_depth) +
-                          " polygons without depth, needed by --visibility zbuffer",
-                      base::Exit::failed);
-  }
+  if (auto judged = judge_without_depth(options.image, options.knobs, end); !judged)
+    return tl::make_unexpected(judged.error());
   if (!options.vram.empty()) {
     if (auto saved = display::save_vram(options.vram, gpu.vram()); !saved)
       return tl::make_unexpected(saved.error());
@@ -200,21 +203,20 @@ base::Result<int> walk(const Options& options) {
 
 }  // namespace
 
-Action add_walk(CLI::App& sub) {
+Action add_walk(Arguments arguments) {
   const auto options = std::make_shared<Options>();
-  sub.add_option("image", options->image, "2 or 8 MiB of main RAM as an emulator saves it")
-      ->type_name("RAM.bin")
-      ->required();
-  sub.add_option("--head", options->head, "the first tag of the list, hexadecimal")
-      ->type_name("ADDR")
-      ->required();
-  sub.add_option("--table", options->table, "the ordering table: address of entry 0, number of entries")
-      ->type_name("ADDR,N");
-  sub.add_option("--vram-in", options->vram_in, "1 MiB of VRAM to draw into [black]")->type_name("FILE");
-  sub.add_option("--vram", options->vram, "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords")
-      ->type_name("FILE");
-  add_knobs(sub, options->knobs,
-            {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far"});
+  arguments.positional("image", "RAM.bin", options->image, "2 or 8 MiB of main RAM as an emulator saves it",
+                       Presence::required);
+  arguments.text("--head", "ADDR", options->head, "the first tag of the list, hexadecimal",
+                 Presence::required);
+  arguments.text("--table", "ADDR,N", options->table,
+                 "the ordering table: address of entry 0, number of entries");
+  arguments.text("--vram-in", "FILE", options->vram_in, "1 MiB of VRAM to draw into [black]");
+  arguments.text("--vram", "FILE", options->vram,
+                 "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords");
+  options->knobs.without_depth = foreign_without_depth;
+  arguments.knobs(options->knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",
+                                   "near", "far", "without-depth"});
   return [options] { return walk(*options); };
 }
 

@@ -74,7 +74,7 @@ bool knob_matters(const scene::KnobInfo& knob, const scene::Knobs& knobs) {
   if (is_one_of(knob.name, {"buckets", "bias", "bucket-order"}))
     return mode == Visibility::ot || mode == Visibility::zbuffer;
   if (knob.name == "key") return mode != Visibility::bsp;
-  if (knob.name.starts_with("depth") || is_one_of(knob.name, {"near", "far", "bucket-depth"})) {
+  if (knob.name.starts_with("depth") || is_one_of(knob.name, {"near", "far", "without-depth"})) {
     return mode == Visibility::zbuffer;
   }
   if (knob.name == "aa-filter") {

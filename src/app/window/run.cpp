@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/open_scene.h"
-#include "app/commands/options.h"
 #include "app/window/window.h"
 #include "demos/demos.h"
 
@@ -44,30 +44,22 @@ base::Result<int> run(Options& options) {
 
 }  // namespace
 
-Action add_run(CLI::App& sub) {
+Action add_run(Arguments arguments) {
   const auto options = std::make_shared<Options>();
   auto& window = options->window;
-  sub.add_option("scene", options->scene, "a scene of `otter list` [the first], or an .obj or .x3d file")
-      ->type_name("SCENE|FILE");
-  sub.add_option("--pace", options->pace, "frames with the screen, or at a fixed rate [vsync]")
-      ->type_name("vsync|60|50")
-      ->check(CLI::IsMember({"vsync", "60", "50"}).description(""))
-      ->take_last();
-  sub.add_option("--scale", window.scale, "screen pixels for each pixel at first [3]")
-      ->type_name("1..16")
-      ->check(CLI::Range(1, 16).description(""))
-      ->take_last();
-  sub.add_flag("--fullscreen", window.first.fullscreen, "fill the screen");
-  sub.add_flag("--split", window.first.split, "begin with both pictures, side by side");
-  sub.add_flag("--differences", window.first.differences, "begin with differing pixels marked");
-  sub.add_option("--frames", window.frames, "quit after N frames")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1'000'000'000).description(""))
-      ->take_last();
-  sub.add_option("--screenshot", window.screenshot, "with --frames: write the window's last frame there")
-      ->type_name("FILE");
-  add_knobs(sub, window.first.knobs);
-  sub.footer([] { return key_help(); });
+  arguments.positional("scene", "SCENE|FILE", options->scene,
+                       "a scene of `otter list` [the first], or an .obj or .x3d file");
+  arguments.choice("--pace", options->pace, {"vsync", "60", "50"},
+                   "frames with the screen, or at a fixed rate [vsync]");
+  arguments.number("--scale", "1..16", window.scale, 1, 16, "screen pixels for each pixel at first [3]");
+  arguments.flag("--fullscreen", window.first.fullscreen, "fill the screen");
+  arguments.flag("--split", window.first.split, "begin with both pictures, side by side");
+  arguments.flag("--differences", window.first.differences, "begin with differing pixels marked");
+  arguments.number("--frames", "N", window.frames, 1, 1'000'000'000, "quit after N frames");
+  arguments.text("--screenshot", "FILE", window.screenshot,
+                 "with --frames: write the window's last frame there");
+  arguments.knobs(window.first.knobs);
+  arguments.footer([] { return key_help(); });
   return [options] { return run(*options); };
 }
 

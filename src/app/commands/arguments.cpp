@@ -1,0 +1,106 @@
+#include "app/commands/arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <utility>
+
+namespace app {
+namespace {
+
+void set_or_throw(scene::Knobs& knobs, const std::string& name, const std::string& value) {
+  if (const auto set = scene::set_knob(knobs, name, value); !set) {
+    throw CLI::ValidationError(set.error().text, CLI::ExitCodes::ValidationError);
+  }
+}
+
+}  // namespace
+
+void Arguments::positional(const char* name, const char* type, std::string& value, const char* help,
+                           Presence presence) {
+  sub_.add_option(name, value, help)->type_name(type)->required(presence == Presence::required);
+}
+
+void Arguments::positionals(const char* name, const char* type, std::vector<std::string>& values,
+                            const char* help) {
+  sub_.add_option(name, values, help)->type_name(type);
+}
+
+void Arguments::text(const char* names, const char* type, std::string& value, const char* help,
+                     Presence presence) {
+  sub_.add_option(names, value, help)->type_name(type)->required(presence == Presence::required)->take_last();
+}
+
+void Arguments::words(const char* names, const char* type, std::vector<std::string>& values,
+                      const char* help) {
+  sub_.add_option(names, values, help)->type_name(type)->delimiter(',');
+}
+
+void Arguments::choice(const char* names, std::string& value, std::initializer_list<const char*> values,
+                       const char* help) {
+  std::string type;
+  for (const char* word : values) type.append(type.empty() ? "" : "|").append(word);
+  sub_.add_option(names, value, help)
+      ->type_name(type)
+      ->check(CLI::IsMember(std::vector<std::string>(values.begin(), values.end())).description(""))
+      ->take_last();
+}
+
+void Arguments::flag(const char* names, bool& value, const char* help) { sub_.add_flag(names, value, help); }
+
+template <class T>
+void Arguments::number(const char* names, const char* type, T& value, T low, T high, const char* help) {
+  sub_.add_option(names, value, help)
+      ->type_name(type)
+      ->check(CLI::Range(low, high).description(""))
+      ->take_last();
+}
+
+template <class T>
+void Arguments::number(const char* names, const char* type, std::optional<T>& value, T low, T high,
+                       const char* help) {
+  sub_.add_option(names, value, help)
+      ->type_name(type)
+      ->check(CLI::Range(low, high).description(""))
+      ->take_last();
+}
+
+template void Arguments::number(const char*, const char*, int&, int, int, const char*);
+template void Arguments::number(const char*, const char*, std::int64_t&, std::int64_t, std::int64_t,
+                                const char*);
+template void Arguments::number(const char*, const char*, std::uint32_t&, std::uint32_t, std::uint32_t,
+                                const char*);
+template void Arguments::number(const char*, const char*, std::uint64_t&, std::uint64_t, std::uint64_t,
+                                const char*);
+template void Arguments::number(const char*, const char*, std::optional<std::uint64_t>&, std::uint64_t,
+                                std::uint64_t, const char*);
+
+void Arguments::exclude(const char* a, const char* b) { sub_.get_option(a)->excludes(sub_.get_option(b)); }
+
+void Arguments::knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names) {
+  for (const auto& knob : scene::knob_table()) {
+    if (names.size() != 0 && std::find(names.begin(), names.end(), knob.name) == names.end()) continue;
+    const std::string name(knob.name);
+    CLI::Option* option = nullptr;
+    if (knob.values == "off|on") {
+      option = sub_.add_flag_callback(
+          "--" + name, [&knobs, name] { set_or_throw(knobs, name, "on"); }, std::string(knob.help));
+    } else {
+      option = sub_.add_option_function<std::string>(
+          "--" + name, [&knobs, name](const std::string& value) { set_or_throw(knobs, name, value); },
+          std::string(knob.help) + " [" + knob.get(knobs) + "]");
+      option->type_name(std::string(knob.values))->take_last();
+    }
+    option->group("Knobs");
+  }
+}
+
+void Arguments::footer(std::function<std::string()> text) { sub_.footer(std::move(text)); }
+
+std::string one_line(const CLI::ParseError& error) {
+  std::string text = error.what();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+}  // namespace app

@@ -1,0 +1,66 @@
+#pragma once
+// The options of one subcommand. What the command-line library is used for stands in arguments.cpp and
+// main.cpp alone: its headers take longer to compile than any command.
+
+#include <cstdint>
+#include <functional>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/knobs.h"
+
+namespace CLI {
+class App;
+class ParseError;
+}  // namespace CLI
+
+namespace app {
+
+enum class Presence : std::uint8_t { optional, required };
+
+/// Declares options; what they are read into must live until the command line is read. `names`:
+/// "-o,--output". `type`: what --help calls the value. `help`: one line, the default in [brackets]. Given
+/// twice, the last one counts.
+class Arguments {
+ public:
+  explicit Arguments(CLI::App& sub) : sub_(sub) {}
+
+  /// What comes without a dash.
+  void positional(const char* name, const char* type, std::string& value, const char* help,
+                  Presence presence = Presence::optional);
+  void positionals(const char* name, const char* type, std::vector<std::string>& values, const char* help);
+
+  void text(const char* names, const char* type, std::string& value, const char* help,
+            Presence presence = Presence::optional);
+  /// Words with commas between them.
+  void words(const char* names, const char* type, std::vector<std::string>& values, const char* help);
+  void choice(const char* names, std::string& value, std::initializer_list<const char*> values,
+              const char* help);
+  void flag(const char* names, bool& value, const char* help);
+  /// A whole number, low..high. T: int, std::int64_t, std::uint32_t, std::uint64_t.
+  template <class T>
+  void number(const char* names, const char* type, T& value, T low, T high, const char* help);
+  template <class T>
+  void number(const char* names, const char* type, std::optional<T>& value, T low, T high, const char* help);
+
+  /// An option that stands for itself: `a` beside `b` is refused.
+  void exclude(const char* a, const char* b);
+
+  /// Every knob of scene::knob_table(), in the group "Knobs"; a wrong value ends parsing with the knob's own
+  /// message. `names`: only these knobs; empty: all.
+  void knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names = {});
+
+  /// Text under the options of --help in place of the examples.
+  void footer(std::function<std::string()> text);
+
+ private:
+  CLI::App& sub_;
+};
+
+/// The error of reading a command line in one line, naming the option and what was expected.
+std::string one_line(const CLI::ParseError& error);
+
+}  // namespace app
