@@ -18,37 +18,28 @@ double now_ms() {
 
 Subject::Subject(scene::Scene scene, std::uint32_t frame) : scene_(std::move(scene)), frame_(frame) {}
 
-scene::FrameBuilder& Subject::builder(const scene::Knobs& knobs) {
-  auto& made = builders_[{knobs.width, knobs.height, knobs.subdivide.pieces()}];
-  if (!made) made = std::make_unique<scene::FrameBuilder>(scene_, knobs);
-  if (uploaded_ != made.get()) {
-    made->upload(*gpu_);
-    uploaded_ = made.get();
-  }
-  return *made;
-}
-
 base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
+  gpu::Gpu& gpu = machine_.gpu();
   auto& build = builder(knobs);
-  gpu_->set_trace(nullptr);
-  presenter_.forget();
+  gpu.set_trace(nullptr);
+  machine_.presenter().forget();
   const int before = std::max(1, machine::Presenter::frames_before(knobs));
   base::Result<scene::FrameStats> stats;
   double filter = 0;
   for (int i = 0; i <= before; ++i) {
-    if (gpu_->canvas() != nullptr) gpu_->canvas()->reset_counters();  // those of the last frame are asked for
-    stats = scene::render_frame(build, seconds(), knobs, ram_, *gpu_);
+    if (gpu.canvas() != nullptr) gpu.canvas()->reset_counters();  // those of the last frame are asked for
+    stats = scene::render_frame(build, seconds(), knobs, machine_.ram(), gpu);
     if (!stats) return tl::make_unexpected(stats.error());
     const double start = now_ms();
-    picture_ = presenter_.show(*gpu_, knobs);
+    machine_.show(knobs);
     filter = now_ms() - start;
   }
   // The walk alone, over the list that is still in RAM.
-  auto frame = build.build(seconds(), knobs, ram_);
+  auto frame = build.build(seconds(), knobs, machine_.ram());
   if (!frame) return tl::make_unexpected(frame.error());
   std::uint32_t sum = 0;
   const double start = now_ms();
-  (void)ot::walk(ram_, frame->head, [&sum](std::uint32_t, std::span<const std::uint32_t> payload) {
+  (void)ot::walk(machine_.ram(), frame->head, [&sum](std::uint32_t, std::span<const std::uint32_t> payload) {
     for (auto w : payload) sum += w;
   });
   Drawn drawn;
@@ -59,10 +50,10 @@ base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   drawn.stages.ot = stats->ot_ms;
   drawn.stages.raster = std::max(0.0, stats->raster_ms - drawn.stages.walk);
   drawn.stages.filter = filter;
-  drawn.history_bytes = presenter_.bytes();
-  drawn.held_bytes = stats->ram_bytes + gpu_->depth_bytes() + gpu_->queue_bytes() + presenter_.bytes();
-  if (gpu_->canvas() != nullptr) {
-    for (const auto& buffer : gpu_->canvas()->buffers()) drawn.held_bytes += buffer.bytes;
+  drawn.history_bytes = machine_.presenter().bytes();
+  drawn.held_bytes = stats->ram_bytes + gpu.depth_bytes() + gpu.queue_bytes() + machine_.presenter().bytes();
+  if (gpu.canvas() != nullptr) {
+    for (const auto& buffer : gpu.canvas()->buffers()) drawn.held_bytes += buffer.bytes;
   } else {
     drawn.held_bytes +=
         static_cast<std::uint64_t>(knobs.width) * static_cast<std::uint64_t>(knobs.height) * 2;
@@ -71,10 +62,11 @@ base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
 }
 
 base::Result<void> Subject::trace(const scene::Knobs& knobs, gpu::Trace& trace) {
+  gpu::Gpu& gpu = machine_.gpu();
   auto& build = builder(knobs);
-  gpu_->set_trace(&trace);
-  const auto drawn = scene::render_frame(build, seconds(), knobs, ram_, *gpu_);
-  gpu_->set_trace(nullptr);
+  gpu.set_trace(&trace);
+  const auto drawn = scene::render_frame(build, seconds(), knobs, machine_.ram(), gpu);
+  gpu.set_trace(nullptr);
   if (!drawn) return tl::make_unexpected(drawn.error());
   return {};
 }
@@ -93,6 +85,7 @@ base::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
 }
 
 base::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
+  gpu::Gpu& gpu = machine_.gpu();
   knobs.antialias = {};
   knobs.resolution = 1;
   knobs.filter = scene::Filter::nearest;
@@ -100,44 +93,45 @@ base::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
   const auto& build = builder(knobs);
   auto options = scene::canvas_options(knobs, build.world(), build.units_per_world());
   options->trace = true;
-  gpu_->set_canvas(options);  // use_targets keeps the trace of a canvas that has one
+  gpu.set_canvas(options);  // use_targets keeps the trace of a canvas that has one
   gpu::Trace to;
   const auto traced = trace(knobs, to);
   if (!traced) return tl::make_unexpected(traced.error());
-  const auto ids = gpu_->canvas()->ids();
-  const auto texcoords = gpu_->canvas()->texcoords();
+  const auto ids = gpu.canvas()->ids();
+  const auto texcoords = gpu.canvas()->texcoords();
   Traced result{{ids.begin(), ids.end()}, {texcoords.begin(), texcoords.end()}, std::move(to.draws)};
-  gpu_->set_canvas({});
+  gpu.set_canvas({});
   return result;
 }
 
 base::Result<std::vector<std::uint32_t>> Subject::words(const scene::Knobs& knobs) {
   auto& build = builder(knobs);
-  auto frame = build.build(seconds(), knobs, ram_);
+  auto frame = build.build(seconds(), knobs, machine_.ram());
   if (!frame) return tl::make_unexpected(frame.error());
   std::vector<std::uint32_t> list;
   for (;;) {
     const auto walked =
-        ot::walk(ram_, frame->head, [&list](std::uint32_t, std::span<const std::uint32_t> payload) {
+        ot::walk(machine_.ram(), frame->head, [&list](std::uint32_t, std::span<const std::uint32_t> payload) {
           list.insert(list.end(), payload.begin(), payload.end());
         });
     if (!walked) return base::fail(walked.message(), base::Exit::failed);
     buffer_y_ = frame->buffer_y;
     if (frame->nearer_lists == 0) return list;
-    if (auto next = build.next(*frame, ram_); !next) return tl::make_unexpected(next.error());
+    if (auto next = build.next(*frame, machine_.ram()); !next) return tl::make_unexpected(next.error());
   }
 }
 
 base::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words) {
-  gpu_->set_trace(nullptr);
-  if (auto used = scene::use_targets(builder(knobs), knobs, *gpu_); !used)
+  gpu::Gpu& gpu = machine_.gpu();
+  gpu.set_trace(nullptr);
+  if (auto used = scene::use_targets(builder(knobs), knobs, gpu); !used)
     return tl::make_unexpected(used.error());
-  gpu_->reset_counters();
-  if (gpu_->canvas() != nullptr) gpu_->canvas()->reset_counters();
+  gpu.reset_counters();
+  if (gpu.canvas() != nullptr) gpu.canvas()->reset_counters();
   const double start = now_ms();
-  gpu_->begin_frame(0, buffer_y_);
-  gpu_->gp0(words);
-  gpu_->end_frame();
+  gpu.begin_frame(0, buffer_y_);
+  gpu.gp0(words);
+  gpu.end_frame();
   return now_ms() - start;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // One scene under measurement: draws its frame with any knobs, timed stage by stage.
 
-#include <map>
 #include <memory>
 #include <span>
 #include <vector>
@@ -10,8 +9,7 @@
 #include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
 #include "gpu/trace.h"
-#include "machine/present.h"
-#include "ot/main_ram.h"
+#include "machine/machine.h"
 #include "scene/frame.h"
 #include "scene/knobs.h"
 
@@ -55,8 +53,8 @@ class Subject {
   /// Draws the frame as often as its knobs need to settle (`warm`: once at least), then once more, timed.
   base::Result<Drawn> draw(const scene::Knobs& knobs);
   /// What the last draw() shows, at the resolution of its knobs.
-  [[nodiscard]] const base::Picture& picture() const { return picture_; }
-  [[nodiscard]] const gpu::Gpu& gpu() const { return *gpu_; }
+  [[nodiscard]] const base::Picture& picture() const { return machine_.picture(); }
+  [[nodiscard]] const gpu::Gpu& gpu() const { return machine_.gpu(); }
 
   /// The frame drawn on the console's target with a history of every write, for inspection.
   base::Result<void> trace_console(scene::Knobs knobs, gpu::Trace& to);
@@ -71,20 +69,14 @@ class Subject {
   std::vector<scene::ScreenPolygon> polygons(const scene::Knobs& knobs);
 
  private:
-  scene::FrameBuilder& builder(const scene::Knobs& knobs);
+  scene::FrameBuilder& builder(const scene::Knobs& knobs) { return machine_.builder(knobs); }
   [[nodiscard]] double seconds() const { return frame_ / 60.0; }
   base::Result<void> trace(const scene::Knobs& knobs, gpu::Trace& to);
 
   scene::Scene scene_;
   std::uint32_t frame_;
-  ot::MainRam ram_{ot::RamSize::mib8};
-  std::unique_ptr<gpu::Gpu> gpu_ = std::make_unique<gpu::Gpu>();
-  std::map<std::array<int, 3>, std::unique_ptr<scene::FrameBuilder>>
-      builders_;                             // by width, height, subdivide
-  scene::FrameBuilder* uploaded_ = nullptr;  // whose textures VRAM holds
-  int buffer_y_ = 0;                         // of the last words()
-  machine::Presenter presenter_;
-  base::Picture picture_;
+  machine::Machine machine_{scene_};
+  int buffer_y_ = 0;  // of the last words()
 };
 
 }  // namespace cost

@@ -16,7 +16,7 @@ struct Inspected {
     REQUIRE(machine.draw(12, knobs));
     REQUIRE(inspection.update(state));
   }
-  app::Machine machine;
+  app::Viewer machine;
   app::Inspection inspection;
   app::WindowState state;
 };

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/machine.h"
+#include "app/viewer.h"
 #include "app/window/cost_meter.h"
 #include "demos/demos.h"
 #include "load/load.h"
@@ -54,7 +54,7 @@ TEST_SUITE("window") {
     for (const auto* demo : {"crates", "glass"}) scenes.push_back(demos::make(*demos::find(demo)));
     for (auto& scene : scenes) {
       scene::Knobs knobs;
-      app::Machine machine(std::move(scene), knobs);
+      app::Viewer machine(std::move(scene), knobs);
       app::CostMeter meter(machine.scene_as_given());
       std::int64_t frame = 0;
       const auto draw = [&] {

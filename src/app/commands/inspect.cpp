@@ -18,7 +18,7 @@
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
 #include "app/commands/without_depth.h"
-#include "app/machine.h"
+#include "app/viewer.h"
 #include "base/file_kind.h"
 #include "base/write_file.h"
 #include "demos/demos.h"
@@ -115,7 +115,7 @@ class SceneSource : public Source {
 
   std::string name_;
   scene::Knobs knobs_;
-  Machine machine_;
+  Viewer machine_;
 };
 
 class DumpSource : public Source {

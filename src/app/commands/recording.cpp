@@ -8,6 +8,7 @@
 
 #include "display/scanout.h"
 #include "gpu/gpu.h"
+#include "machine/machine.h"
 #include "ot/main_ram.h"
 #include "ot/walker.h"
 #include "scene/pipeline.h"
@@ -30,14 +31,13 @@ base::Result<void> append_list(const ot::MainRam& ram, std::uint32_t head,
 /// Draws every frame twice, live and from the words recorded, and counts where the two differ.
 class Comparison {
  public:
-  Comparison(const scene::Scene& scene, const scene::Knobs& knobs) : builder_(scene, knobs), knobs_(knobs) {
-    builder_.upload(live_);
-    builder_.upload(replay_);
+  Comparison(const scene::Scene& scene, const scene::Knobs& knobs) : live_(scene), knobs_(knobs) {
+    live_.builder(knobs).upload(replay_);
   }
 
   base::Result<void> frame(std::uint32_t number, const scene::Frame& recorded,
                            std::span<const std::uint32_t> words) {
-    const auto drawn = scene::render_frame(builder_, scene::frame_time(number), knobs_, ram_, live_);
+    const auto drawn = live_.draw(scene::frame_time(number), knobs_);
     if (!drawn) return tl::make_unexpected(drawn.error());
     replay_.gp0(words);
     replay_.gp1(scene::FrameBuilder::show_gp1(recorded));
@@ -50,10 +50,8 @@ class Comparison {
 
  private:
   void compare(std::uint32_t number) {
-    const auto shown = [](const gpu::Gpu& gpu) {
-      return display::scan_out(gpu.vram().pixels(), display::area_of(gpu.display()));
-    };
-    const auto live = shown(live_), replay = shown(replay_);
+    const auto& live = live_.picture();
+    const auto replay = display::scan_out(replay_.vram().pixels(), display::area_of(replay_.display()));
     std::uint64_t pixels = 0;
     for (std::size_t i = 0; i < live.pixels.size(); ++i) {
       const auto &a = live.pixels[i], &b = replay.pixels[i];
@@ -69,10 +67,9 @@ class Comparison {
     }
   }
 
-  scene::FrameBuilder builder_;
+  machine::Machine live_;
+  gpu::Gpu replay_;
   scene::Knobs knobs_;
-  ot::MainRam ram_{ot::RamSize::mib8};
-  gpu::Gpu live_, replay_;
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
-#include "app/machine.h"
+#include "app/viewer.h"
 #include "demos/demos.h"
 #include "display/png.h"
 
@@ -30,7 +30,7 @@ struct Options {
 base::Result<void> render_one(scene::Scene scene, const Options& options,
                               const std::filesystem::path& output) {
   const std::string name = scene.name;
-  Machine machine(std::move(scene), options.knobs);
+  Viewer machine(std::move(scene), options.knobs);
   for (const auto& line : machine.report())
     std::fprintf(stderr, "otter: %s: %s\n", name.c_str(), line.c_str());
   const auto stats = machine.draw(options.frame, options.knobs);

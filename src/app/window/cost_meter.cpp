@@ -48,7 +48,7 @@ bool CostMeter::has_ended() const {
 }
 
 void CostMeter::run(const std::stop_token& stop, const scene::Scene& scene) {
-  std::unique_ptr<Machine> machine;
+  std::unique_ptr<Viewer> machine;
   std::unique_lock lock(mutex_);
   while (granted_.wait(lock, stop, [this] { return credit_ms_ > 0; }) && !stop.stop_requested()) {
     const Job job{frame_, table_.next(), table_.current(), camera_};
@@ -66,10 +66,10 @@ void CostMeter::run(const std::stop_token& stop, const scene::Scene& scene) {
 
 // The frame after the one before it: that allocates what the knobs call for, and temporal accumulation goes
 // on from it.
-base::Result<double> CostMeter::measured(std::unique_ptr<Machine>& machine, const scene::Scene& scene,
+base::Result<double> CostMeter::measured(std::unique_ptr<Viewer>& machine, const scene::Scene& scene,
                                          const Job& job) {
   try {
-    if (!machine) machine = std::make_unique<Machine>(scene, job.knobs);
+    if (!machine) machine = std::make_unique<Viewer>(scene, job.knobs);
     if (auto before = machine->draw(job.frame - 1, job.knobs, job.camera); !before) {
       return tl::make_unexpected(before.error());
     }

@@ -12,7 +12,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "app/machine.h"
+#include "app/viewer.h"
 #include "app/window/camera.h"
 #include "app/window/cost_table.h"
 #include "scene/world.h"
@@ -39,7 +39,7 @@ class CostMeter {
     CameraOffset camera;
   };
   void run(const std::stop_token& stop, const scene::Scene& scene);
-  static base::Result<double> measured(std::unique_ptr<Machine>& machine, const scene::Scene& scene,
+  static base::Result<double> measured(std::unique_ptr<Viewer>& machine, const scene::Scene& scene,
                                        const Job& job);
 
   mutable std::mutex mutex_;  // guards all but the thread

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/machine.h"
+#include "app/viewer.h"
 
 namespace app {
 namespace {
@@ -133,7 +133,7 @@ Motion Input::controller_motion() const {
   return sum;
 }
 
-void Input::move_camera(double now, double passed, const Machine* machine, WindowState& state) const {
+void Input::move_camera(double now, double passed, const Viewer* machine, WindowState& state) const {
   const double turn = radians_per_second * passed;
   for (const Motion& motion : {held_.motion(now), controller_motion()}) {
     if (!motion.any()) continue;

@@ -10,7 +10,7 @@
 
 namespace app {
 
-class Machine;
+class Viewer;
 
 class Input {
  public:
@@ -19,7 +19,7 @@ class Input {
 
   /// Moves the camera by what was held for `passed` seconds up to `now`. `machine`
   /// may be null: no flying then.
-  void move_camera(double now, double passed, const Machine* machine, WindowState& state) const;
+  void move_camera(double now, double passed, const Viewer* machine, WindowState& state) const;
 
  private:
   void take_key(const SDL_KeyboardEvent& key, double now, WindowState& state);

@@ -64,8 +64,8 @@ std::string describe_draw(std::size_t number, const gpu::Primitive& primitive) {
   return text;
 }
 
-Inspection::Inspection(const Machine& like, const scene::Knobs& knobs)
-    : machine_(std::make_unique<Machine>(like.scene_as_given(), knobs)) {
+Inspection::Inspection(const Viewer& like, const scene::Knobs& knobs)
+    : machine_(std::make_unique<Viewer>(like.scene_as_given(), knobs)) {
   trace_.keep_history = true;
 }
 

@@ -33,7 +33,7 @@ base::Result<void> Show::change_scene(const WindowState& state) {
   if (!scene) return tl::make_unexpected(scene.error());
   name_ = entry.name;
   other_.reset();
-  shown_ = std::make_unique<Machine>(std::move(*scene), state.knobs);
+  shown_ = std::make_unique<Viewer>(std::move(*scene), state.knobs);
   for (const auto& line : shown_->report())
     std::fprintf(stderr, "otter: %s: %s\n", name_.c_str(), line.c_str());
   stats_ = {};
@@ -58,7 +58,7 @@ base::Result<bool> Show::update(const WindowState& state) {
     other_.reset();
     return true;
   }
-  if (!other_) other_ = std::make_unique<Machine>(shown_->scene_as_given(), asked.other);
+  if (!other_) other_ = std::make_unique<Viewer>(shown_->scene_as_given(), asked.other);
   if (auto drawn = other_->draw(state.frame, asked.other, state.camera); !drawn) {
     return tl::make_unexpected(drawn.error());
   }

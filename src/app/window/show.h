@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/machine.h"
+#include "app/viewer.h"
 #include "app/window/window.h"
 
 namespace app {
@@ -25,7 +25,7 @@ class Show {
   [[nodiscard]] const scene::FrameStats& stats() const { return stats_; }
   [[nodiscard]] std::optional<std::uint64_t> different() const { return different_; }
   /// The machine whose picture is left(); nullptr before the first update.
-  [[nodiscard]] const Machine* machine() const { return shown_.get(); }
+  [[nodiscard]] const Viewer* machine() const { return shown_.get(); }
   /// What loading the scene had to say, once per scene.
   [[nodiscard]] const std::string& scene_name() const { return name_; }
 
@@ -45,7 +45,7 @@ class Show {
   Asked drawn_;
   int scene_ = -1;
   std::string name_;
-  std::unique_ptr<Machine> shown_, other_;  // the other one only while two pictures are compared
+  std::unique_ptr<Viewer> shown_, other_;  // the other one only while two pictures are compared
   base::Picture left_, right_;
   scene::FrameStats stats_;
   std::optional<std::uint64_t> different_;
