@@ -124,7 +124,7 @@ base::Result<std::vector<std::uint32_t>> Subject::words(const scene::Knobs& knob
 base::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words) {
   gpu::Gpu& gpu = machine_.gpu();
   gpu.set_trace(nullptr);
-  if (auto used = scene::use_targets(builder(knobs), knobs, gpu); !used)
+  if (auto used = scene::use_targets(builder(knobs).plan_of(knobs), gpu); !used)
     return tl::make_unexpected(used.error());
   gpu.reset_counters();
   if (gpu.canvas() != nullptr) gpu.canvas()->reset_counters();

@@ -118,6 +118,8 @@ struct ScreenPolygon {
   std::uint32_t window = 0;    ///< E2h word it needs (texture repeat)
 };
 
+struct Plan;
+
 /// One scene, ready to be built frame by frame. Keeps its own copy of the world, which it animates.
 class FrameBuilder {
  public:
@@ -166,6 +168,10 @@ class FrameBuilder {
 
   /// The camera that the frame is seen from; empty: the scene's own. For free flight in the window.
   void set_camera(const Camera* camera);
+  /// What the knobs of the last build() meant for its frame; and what others would mean for the world as it
+  /// is.
+  [[nodiscard]] const Plan& plan() const;
+  [[nodiscard]] Plan plan_of(const Knobs& knobs) const;
   /// The world as the last build() left it.
   [[nodiscard]] const World& world() const;
 
@@ -173,10 +179,5 @@ class FrameBuilder {
   struct State;
   std::unique_ptr<State> state_;
 };
-
-/// True if these knobs draw with the depths of annotation words.
-[[nodiscard]] bool needs_depth(const Knobs& knobs);
-/// True if these knobs draw with the fractions of annotation words.
-[[nodiscard]] bool needs_fractions(const Knobs& knobs);
 
 }  // namespace scene

@@ -70,15 +70,14 @@ std::uint32_t ListBuilder::room(const ot::MainRam& ram, std::uint32_t table_leng
   return ram.size_bytes() - table_begin - 4 * table_length;
 }
 
-void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule,
-                        const PacketStyle& style, const BucketRange& range,
+void ListBuilder::begin(ot::MainRam& ram, const Plan& plan, const BucketRange& range,
                         std::span<const std::uint32_t> environment) {
   ram_ = &ram;
-  rule_ = rule;
-  style_ = style;
+  rule_ = plan.rule;
+  style_ = plan.style;
   range_ = range;
-  sorts_ = knobs.visibility == Visibility::sorted || knobs.visibility == Visibility::bsp;
-  order_ = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
+  sorts_ = plan.sorting != Sorting::table;
+  order_ = plan.order_in_bucket;
   full_ = false;
   primitives_ = words_ = 0;
   out_of_range_ = {};
@@ -86,9 +85,9 @@ void ListBuilder::begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& 
   if (sorts_) {
     table_.reset();
   } else {
-    if (!table_ || table_->memory().data() != ram.words().data() || table_->length() != rule.length ||
+    if (!table_ || table_->memory().data() != ram.words().data() || table_->length() != rule_.length ||
         table_->order() != order_)
-      table_.emplace(ram, table_begin, rule.length, order_);
+      table_.emplace(ram, table_begin, rule_.length, order_);
     table_->clear();
   }
   arena_begin_ = table_begin + 4 * table_length();

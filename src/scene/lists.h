@@ -17,31 +17,10 @@
 #include "ot/packet.h"
 #include "ot/sort.h"
 #include "scene/frame.h"
-#include "scene/knobs.h"
+#include "scene/plan.h"
 #include "scene/submit.h"
 
 namespace scene {
-
-/// What every packet of a frame has in common.
-struct PacketStyle {
-  bool windows = false;               ///< textured primitives set their texture window
-  bool depth = false;                 ///< annotation nodes with depths
-  bool fractions = false;             ///< and with fractions,
-  std::uint8_t fraction_mask = 0xff;  ///< of which these bits count
-  std::uint32_t draw_mode = 0;  ///< E1h word without page and blend: dither, draw to the displayed field
-};
-
-/// Bucket (or sort key) of a primitive: 0..length-1, far is high.
-struct BucketRule {
-  std::uint32_t length = 1;
-  std::int64_t bias = 0;
-  std::int64_t bias_step = 1;  ///< of a material's bias
-  /// As the formula gives it.
-  [[nodiscard]] std::int64_t wanted(const Primitive& p) const;
-  /// Limited to the table.
-  [[nodiscard]] std::uint32_t limited(std::int64_t wanted) const;
-  [[nodiscard]] std::uint32_t of(const Primitive& p) const { return limited(wanted(p)); }
-};
 
 /// Words of a primitive's own node; at most 14.
 std::size_t encode(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out);
@@ -74,8 +53,8 @@ class BucketSizes {
 class ListBuilder {
  public:
   /// Clears the table and writes the environment node.
-  void begin(ot::MainRam& ram, const Knobs& knobs, const BucketRule& rule, const PacketStyle& style,
-             const BucketRange& range, std::span<const std::uint32_t> environment);
+  void begin(ot::MainRam& ram, const Plan& plan, const BucketRange& range,
+             std::span<const std::uint32_t> environment);
   void operator()(const Primitive& p) {
     const std::int64_t wanted = rule_.wanted(p);
     if (add(p, rule_.limited(wanted)) && (wanted < 0 || wanted >= rule_.length)) note_out_of_range(wanted);

@@ -16,11 +16,13 @@ namespace {
 // Tells the GPU and whoever watches it what the words of a node do not say.
 class Marker {
  public:
-  Marker(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs, gpu::Gpu& gpu)
-      : gpu_(gpu), table_address_(frame.table_address), buckets_(frame.buckets) {
-    by_bucket_ = knobs.visibility == Visibility::zbuffer && knobs.without_depth == WithoutDepth::bucket;
-    const bool splits = knobs.visibility == Visibility::bsp;
-    if (splits || (knobs.visibility == Visibility::sorted && gpu.trace() != nullptr))
+  Marker(const FrameBuilder& builder, const Frame& frame, gpu::Gpu& gpu)
+      : gpu_(gpu),
+        table_address_(frame.table_address),
+        buckets_(frame.buckets),
+        by_bucket_(builder.plan().default_depth_of_bucket) {
+    const Sorting sorting = builder.plan().sorting;
+    if (sorting == Sorting::split || (sorting == Sorting::keys && gpu.trace() != nullptr))
       marks_ = builder.marks();
   }
   ~Marker() {
@@ -50,14 +52,14 @@ class Marker {
 
   gpu::Gpu& gpu_;
   std::uint32_t table_address_, buckets_;
+  bool by_bucket_;
   std::vector<NodeMark> marks_;
   std::size_t next_ = 0;
-  bool by_bucket_;
 };
 
-base::Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const Knobs& knobs,
-                             const ot::MainRam& ram, gpu::Gpu& gpu) {
-  Marker marker(builder, frame, knobs, gpu);
+base::Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, const ot::MainRam& ram,
+                             gpu::Gpu& gpu) {
+  Marker marker(builder, frame, gpu);
   const auto result =
       ot::walk(ram, frame.head, [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
         marker.at(tag);
@@ -71,15 +73,14 @@ base::Result<void> draw_list(const FrameBuilder& builder, const Frame& frame, co
 
 }  // namespace
 
-base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs, ot::MainRam& ram,
-                              gpu::Gpu& gpu) {
+base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, ot::MainRam& ram, gpu::Gpu& gpu) {
   using Clock = std::chrono::steady_clock;
-  if (auto used = use_targets(builder, knobs, gpu); !used) return used;
+  if (auto used = use_targets(builder.plan(), gpu); !used) return used;
   Clock::duration drawing{};
   auto start = Clock::now();
   gpu.begin_frame(0, frame.buffer_y);
   for (;;) {
-    if (auto drawn = draw_list(builder, frame, knobs, ram, gpu); !drawn) return drawn;
+    if (auto drawn = draw_list(builder, frame, ram, gpu); !drawn) return drawn;
     drawing += Clock::now() - start;
     if (frame.nearer_lists == 0) break;
     if (auto next = builder.next(frame, ram); !next) return next;
@@ -90,7 +91,7 @@ base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& 
   gpu.gp1(FrameBuilder::show_gp1(frame));
   drawing += Clock::now() - start;
   frame.stats.raster_ms = std::chrono::duration<double, std::milli>(drawing).count();
-  if (end.polygons_without_depth != 0 && knobs.without_depth == WithoutDepth::error) {
+  if (end.polygons_without_depth != 0 && builder.plan().refuses_without_depth) {
     return base::fail(std::to_string(end.polygons_without_depth) +
                           " polygons without depth, the first is drawing command " +
                           std::to_string(end.first_without_depth) +
@@ -110,8 +111,7 @@ base::Result<FrameStats> render_frame(FrameBuilder& builder, double seconds, con
   auto frame =
       builder.build(seconds, knobs, ram, gpu.trace() != nullptr ? Annotate::always : Annotate::when_needed);
   if (!frame) return tl::make_unexpected(frame.error());
-  if (auto drawn = draw_frame(builder, *frame, knobs, ram, gpu); !drawn)
-    return tl::make_unexpected(drawn.error());
+  if (auto drawn = draw_frame(builder, *frame, ram, gpu); !drawn) return tl::make_unexpected(drawn.error());
   return frame->stats;
 }
 

@@ -15,8 +15,8 @@ namespace scene {
                                                     ot::MainRam& ram, gpu::Gpu& gpu);
 
 /// The second half: draws the list of `frame`, and the nearer ones if there are any, and shows the picture.
-[[nodiscard]] base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, const Knobs& knobs,
-                                            ot::MainRam& ram, gpu::Gpu& gpu);
+[[nodiscard]] base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, ot::MainRam& ram,
+                                            gpu::Gpu& gpu);
 
 /// Time of frame N.
 [[nodiscard]] constexpr double frame_time(std::uint32_t number) { return number / 60.0; }

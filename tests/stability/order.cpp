@@ -59,7 +59,7 @@ FrameHashes hashes_of_frame(std::string_view demo, const scene::Knobs& knobs) {
     for (const auto word : payload) list.add(word);
   });
   REQUIRE(walked);
-  REQUIRE(scene::draw_frame(builder, *frame, knobs, ram, gpu));
+  REQUIRE(scene::draw_frame(builder, *frame, ram, gpu));
   for (const auto pixel : gpu.vram().pixels()) vram.add(pixel);
   return {list.value, vram.value};
 }
