@@ -1,0 +1,158 @@
+// Vertical blanks and callbacks: VSync, DrawSync, psxetc.h, and psxapi.h's controllers, sections and
+// counters.
+
+#include <array>
+#include <cstdlib>
+
+#include "sdk/console.h"
+#include "sdk/include/psxapi.h"
+#include "sdk/include/psxetc.h"
+#include "sdk/include/psxgpu.h"
+
+namespace sdk {
+namespace {
+
+using Callback = void (*)(void);
+
+Callback exchange(Callback& held, Callback next) {
+  const auto before = held;
+  held = next;
+  return before;
+}
+
+std::array<Callback, 11> interrupt_callbacks{};
+std::array<Callback, 7> dma_callbacks{};
+std::array<int, 7> dma_priorities{};
+
+/// Where a callback of an interrupt is kept. The vertical blank's and the GPU's are those of VSync and
+/// DrawSync.
+Callback* slot(IRQ_Channel irq) {
+  auto& console = machine();
+  if (irq == IRQ_VBLANK) return &console.on_blank;
+  if (irq == IRQ_GPU) return &console.on_drawn;
+  return irq < interrupt_callbacks.size() ? &interrupt_callbacks[irq] : nullptr;
+}
+
+void* as_pointer(Callback callback) { return reinterpret_cast<void*>(callback); }
+
+/// Ticks of a root counter between two vertical blanks (NTSC): pixel clock at 320, lines, system clock / 8,
+/// blanks.
+constexpr std::array<std::uint32_t, 4> ticks_per_blank{107'520, 263, 70'650, 1};
+std::array<std::uint32_t, 4> counter_zero{};  // blanks when it was set to zero
+
+}  // namespace
+}  // namespace sdk
+
+using sdk::machine;
+
+extern "C" {
+
+int VSync(int mode) {
+  auto& console = machine();
+  if (mode == 1) return 0;
+  if (mode >= 0) {
+    for (int i = 0; i < (mode < 2 ? 1 : mode); ++i) {
+      console.handover.wait_for_blank();
+      sdk::after_blank();
+    }
+    console.lint.sync();
+  }
+  return mode < 0 ? static_cast<int>(console.blanks) : 0;
+}
+
+void* VSyncHaltFunction(void (*)(void)) { return nullptr; }
+void* VSyncCallback(void (*func)(void)) { return sdk::as_pointer(sdk::exchange(machine().on_blank, func)); }
+
+void SetDrawOpType(GPU_DrawOpType) {}
+
+int EnqueueDrawOp(void (*func)(), uint32_t arg1, uint32_t arg2, uint32_t arg3) {
+  if (!sdk::is_usable(reinterpret_cast<const void*>(func), "EnqueueDrawOp", __builtin_return_address(0)))
+    return -1;
+  reinterpret_cast<void (*)(uint32_t, uint32_t, uint32_t)>(func)(arg1, arg2, arg3);
+  return 0;
+}
+
+int DrawSync(int mode) {
+  if (mode == 0) machine().lint.sync();
+  return 0;
+}
+void* DrawSyncCallback(void (*func)(void)) {
+  return sdk::as_pointer(sdk::exchange(machine().on_drawn, func));
+}
+
+void* InterruptCallback(IRQ_Channel irq, void (*func)(void)) {
+  auto* slot = sdk::slot(irq);
+  return slot == nullptr ? nullptr : sdk::as_pointer(sdk::exchange(*slot, func));
+}
+void* GetInterruptCallback(IRQ_Channel irq) {
+  const auto* slot = sdk::slot(irq);
+  return slot == nullptr ? nullptr : sdk::as_pointer(*slot);
+}
+void* DMACallback(DMA_Channel dma, void (*func)(void)) {
+  if (dma >= sdk::dma_callbacks.size()) return nullptr;
+  return sdk::as_pointer(sdk::exchange(sdk::dma_callbacks[dma], func));
+}
+void* GetDMACallback(DMA_Channel dma) {
+  return dma < sdk::dma_callbacks.size() ? sdk::as_pointer(sdk::dma_callbacks[dma]) : nullptr;
+}
+int SetDMAPriority(DMA_Channel dma, int priority) {
+  if (dma >= sdk::dma_priorities.size()) return -1;
+  const int before = sdk::dma_priorities[dma];
+  sdk::dma_priorities[dma] = priority;
+  return before;
+}
+int GetDMAPriority(DMA_Channel dma) {
+  return dma < sdk::dma_priorities.size() ? sdk::dma_priorities[dma] : -1;
+}
+
+int ResetCallback(void) {
+  machine().on_blank = machine().on_drawn = nullptr;
+  return 0;
+}
+void RestartCallback(void) { machine().callbacks_allowed = true; }
+void StopCallback(void) { machine().callbacks_allowed = false; }
+
+int EnterCriticalSection(void) {
+  auto& console = machine();
+  const bool before = console.callbacks_allowed;
+  console.callbacks_allowed = false;
+  return before ? 1 : 0;
+}
+void ExitCriticalSection(void) {
+  auto& console = machine();
+  console.callbacks_allowed = true;
+  if (console.blank_missed) {
+    console.blank_missed = false;
+    sdk::after_blank();
+  }
+}
+
+void InitPAD(uint8_t* buff1, int len1, uint8_t* buff2, int len2) {
+  machine().pad_buffers = {sdk::PadBuffer{buff1, static_cast<std::size_t>(len1 < 0 ? 0 : len1)},
+                           sdk::PadBuffer{buff2, static_cast<std::size_t>(len2 < 0 ? 0 : len2)}};
+}
+void StartPAD(void) { machine().pads_run = true; }
+void StopPAD(void) { machine().pads_run = false; }
+void ChangeClearPAD(int) {}
+void ChangeClearRCnt(int, int) {}
+
+int SetRCnt(int spec, uint16_t, int) { return ResetRCnt(spec); }
+int GetRCnt(int spec) {
+  const auto n = static_cast<unsigned>(spec) & 0xff;
+  if (n >= sdk::ticks_per_blank.size()) return 0;
+  return static_cast<int>((machine().blanks - sdk::counter_zero[n]) * sdk::ticks_per_blank[n] & 0xffff);
+}
+int StartRCnt(int spec) { return (static_cast<unsigned>(spec) & 0xff) < sdk::ticks_per_blank.size() ? 1 : 0; }
+int StopRCnt(int spec) { return StartRCnt(spec); }
+int ResetRCnt(int spec) {
+  if (StartRCnt(spec) == 0) return 0;
+  sdk::counter_zero[static_cast<unsigned>(spec) & 0xff] = machine().blanks;
+  return 1;
+}
+
+void FlushCache(void) {}
+void _boot(void) { machine().handover.stop(sdk::ProgramState::ended); }
+/// In place of the program's exit(): the host writes what was asked for.
+void otter_exit(int) { machine().handover.stop(sdk::ProgramState::ended); }
+
+}  // extern "C"

@@ -1,0 +1,39 @@
+#pragma once
+// The program's memory as the console's RAM. The program is linked without position independence at 10000h,
+// so that its static data, its stack (memory.cpp keeps it in static storage) and its heap (heap.cpp) have
+// addresses below 8 MiB: a 24-bit link holds them, bit 23 stays the end mark, and every address means the
+// same in MainRam.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "ot/main_ram.h"
+#include "scene/error.h"
+
+namespace sdk {
+
+inline constexpr std::uint32_t memory_begin = 0x10000, memory_end = 0x800000;
+inline constexpr std::size_t stack_bytes = std::size_t{512} * 1024;
+
+/// Whether a link can hold the address.
+inline bool is_linkable(const void* p) {
+  const auto address = reinterpret_cast<std::uintptr_t>(p);
+  return address >= memory_begin && address < memory_end;
+}
+/// The address in RAM of what is_linkable.
+inline std::uint32_t address_of(const void* p) {
+  return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(p));
+}
+
+/// Error (exit 2): this program's static data does not lie in memory_begin..memory_end; names where it ends.
+scene::Result<void> check_layout();
+
+/// Copies static data, the program's stack and heap among it, to the same addresses of `ram` (8 MiB).
+/// Needs check_layout(). Returns the bytes copied.
+std::size_t copy_memory(ot::MainRam& ram);
+
+/// Where the program's main() runs: inside static data, stack_bytes long.
+std::span<std::byte> program_stack();
+
+}  // namespace sdk

@@ -1,0 +1,91 @@
+#include "sdk/settings.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+
+#include "app/options.h"
+
+namespace sdk {
+namespace {
+
+constexpr std::uint32_t usual_frames = 60;
+
+void add_files(CLI::App& line, Settings& s) {
+  const auto file = [&line](const char* name, std::string& where, const char* help) {
+    line.add_option(name, where, help)->type_name("FILE");
+  };
+  file("-o,--output", s.output, "write the picture of the last frame as a PNG");
+  file("--vram", s.vram, "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords");
+  file("--record", s.record,
+       "write everything sent to the GPU as a dump; packed if its name ends in .zst or .xz");
+  file("--ram", s.ram, "write memory as the last list found it, for otter walk");
+  file("--json", s.json, "write the report as JSON; - is standard output");
+  file("--pad-log", s.pad_log, "write what the controllers did, for --pad");
+}
+
+}  // namespace
+
+bool Settings::needs_depth() const {
+  const scene::Knobs usual;
+  return annotate || !json.empty() || knobs.visibility == scene::Visibility::zbuffer ||
+         knobs.position != usual.position || knobs.texture != usual.texture;
+}
+
+scene::Result<Settings> parse_settings(int argc, const char* const* argv) {
+  Settings s;
+  const auto name = std::filesystem::path(argv[0]).filename().string();
+  CLI::App line("A program of the console's SDK, drawn by Otter.", name);
+  line.set_help_flag("-h,--help", "print this help");
+  line.footer("Examples:\n  ./" + name + "\n  ./" + name +
+              " --frames 120 -o frame.png --pad 30:UP+X,60:\n  ./" + name +
+              " --frames 60 -o frame.png --visibility zbuffer --resolution 4\n");
+  line.get_formatter()->column_width(34);
+  line.add_option("--frames", s.frames,
+                  "no window; end at the Nth vertical blank, from 1 [60 where a file is written]")
+      ->type_name("N")
+      ->check(CLI::Range(std::uint32_t{1}, std::uint32_t{1'000'000'000}).description(""));
+  add_files(line, s);
+  line.add_flag("--annotate", s.annotate,
+                "the recording carries depths, so that it replays through the z-buffer, too");
+  line.add_flag("--reversed", s.reversed,
+                "send every list near to far: through a z-buffer the picture stays");
+  std::array<std::string, 2> pads;
+  line.add_option("--pad", pads[0], "what the first controller holds from a frame on, as 30:UP+X,60:")
+      ->type_name("SCRIPT");
+  line.add_option("--pad2", pads[1], "the same of the second controller, which is there only with it")
+      ->type_name("SCRIPT");
+  std::string shown = "display";
+  line.add_option("--shown", shown, "the display area, or the buffer that was drawn into last [display]")
+      ->type_name("drawn|display")
+      ->check(CLI::IsMember({"drawn", "display"}).description(""));
+  app::add_knobs(line, s.knobs,
+                 {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far",
+                  "position", "texture", "filter", "colour", "antialias", "aa-filter", "resolution"});
+  try {
+    line.parse(argc, argv);
+  } catch (const CLI::CallForHelp& help) {
+    std::exit(line.exit(help));
+  } catch (const CLI::ParseError& error) {
+    return scene::fail(app::one_line(error) + " (see ./" + name + " --help)");
+  }
+  s.shown = shown == "drawn" ? Shown::drawn : Shown::display;
+  for (std::size_t i = 0; i < pads.size(); ++i) {
+    if (pads[i].empty()) continue;
+    auto script = parse_pad_script(pads[i]);
+    if (!script) return tl::make_unexpected(script.error());
+    s.pads[i] = std::move(*script);
+  }
+  const auto visibility = s.knobs.visibility;
+  if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
+    return scene::fail(
+        "--visibility: a program's lists can be drawn by ot, in their own order, or by zbuffer");
+  }
+  if (auto checked = scene::check_knobs(s.knobs); !checked) return tl::make_unexpected(checked.error());
+  const bool writes = !(s.output + s.vram + s.record + s.ram + s.json).empty();
+  if (!s.frames && writes) s.frames = usual_frames;
+  return s;
+}
+
+}  // namespace sdk
