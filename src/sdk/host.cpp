@@ -122,6 +122,7 @@ class Host {
       window_ = std::move(*window);
     }
     auto& console = machine();
+    console.reversed = settings_.reversed;
     console.has_second_pad = !settings_.pads[1].empty();
     if (!settings_.record.empty()) console.feed.record(settings_.annotate);
     screen_.choose_targets(settings_.knobs);

@@ -1,6 +1,9 @@
 // Ordering tables and lists: clearing, linking, drawing.
 
+#include <algorithm>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "ot/main_ram.h"
 #include "ot/packet.h"
@@ -32,10 +35,22 @@ void draw_list(const std::uint32_t* list, CallSite site) {
   console.last_list = address_of(list);
   console.lint.draw(console.last_list, site);
   ++console.lists;
+  struct Node {
+    std::uint32_t address;
+    std::span<const std::uint32_t> payload;
+  };
+  std::vector<Node> later;
   const auto walked = ot::walk(console.ram, console.last_list,
                                [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
-                                 if (!payload.empty()) console.feed.packet(payload, tag + 4);
+                                 if (payload.empty()) return;
+                                 if (console.reversed) {
+                                   later.push_back({tag + 4, payload});
+                                 } else {
+                                   console.feed.packet(payload, tag + 4);
+                                 }
                                });
+  std::for_each(later.rbegin(), later.rend(),
+                [&](const Node& node) { console.feed.packet(node.payload, node.address); });
   console.nodes += walked.nodes;
   console.words += walked.words;
   if (!walked) console.lint.note("list", site, "nothing is drawn: " + walked.message());

@@ -111,7 +111,8 @@ std::string to_text(const PadScript& script) {
       if ((pad.buttons & button.bit) != 0) add(button.name);
     }
     for (std::size_t i = 0; i < sticks.size(); ++i) {
-      if (pad.sticks[i] != middle) add(std::string(sticks[i]).append("=").append(std::to_string(pad.sticks[i])));
+      if (pad.sticks[i] != middle)
+        add(std::string(sticks[i]).append("=").append(std::to_string(pad.sticks[i])));
     }
   }
   return text;

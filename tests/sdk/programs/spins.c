@@ -1,0 +1,5 @@
+// Never waits for a blank.
+int main(void) {
+  for (volatile int i = 0;; ++i) {
+  }
+}
