@@ -10,8 +10,13 @@ typedef struct _MATRIX {
   int16_t m[3][3];  ///< [row][column]
   int32_t t[3];
 } MATRIX;
+// The older SDK's vectors have a fourth word (libgte.h), which no function reads or writes.
+#ifndef OTTER_VECTOR_PAD
+#define OTTER_VECTOR_PAD
+#endif
 typedef struct _VECTOR {
   int32_t vx, vy, vz;
+  OTTER_VECTOR_PAD
 } VECTOR;
 typedef struct _SVECTOR {
   int16_t vx, vy, vz, pad;

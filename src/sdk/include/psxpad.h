@@ -58,17 +58,9 @@ typedef struct __attribute__((packed)) _PADTYPE {
       uint8_t rs_x, rs_y, ls_x, ls_y;  ///< sticks, 80h in the middle
       uint8_t press[12];
     };
-    __extension__ struct {
-      int8_t x_mov, y_mov;
-    };
-    __extension__ struct {
-      uint8_t twist, btn_i, btn_ii, trg_l;
-    };
-    __extension__ struct {
-      uint16_t jog_rot;
-    };
-    __extension__ struct {
-      uint16_t gun_x, gun_y;
-    };
+    __extension__ struct { int8_t x_mov, y_mov; };
+    __extension__ struct { uint8_t twist, btn_i, btn_ii, trg_l; };
+    __extension__ struct { uint16_t jog_rot; };
+    __extension__ struct { uint16_t gun_x, gun_y; };
   };
 } PADTYPE;

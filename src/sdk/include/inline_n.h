@@ -1,0 +1,3 @@
+#pragma once
+// The older SDK's name of the coprocessor's macros.
+#include "inline_c.h"

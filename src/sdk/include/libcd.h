@@ -1,0 +1,3 @@
+#pragma once
+// The drive under the older SDK's name.
+#include "psxcd.h"
