@@ -38,6 +38,7 @@ struct Console {
   void (*on_drawn)() = nullptr;   ///< DrawSyncCallback
   bool callbacks_allowed = true;  ///< outside critical sections
   bool blank_missed = false;      ///< in a critical section
+  bool reversed = false;         ///< lists are sent near to far
   std::uint32_t last_list = 0;    ///< where the list drawn last begins
 
   // What a report tells.

@@ -14,21 +14,19 @@ include_guard(GLOBAL)
 enable_language(C)
 enable_language(CXX)
 
-set(OTTER_SDK_DIR ${CMAKE_CURRENT_LIST_DIR})
-set(OTTER_SDK_INCLUDE ${CMAKE_CURRENT_LIST_DIR}/include)
 if(NOT TARGET otter::sdk)
   find_package(otter REQUIRED COMPONENTS sdk HINTS ${CMAKE_CURRENT_LIST_DIR})
 endif()
 
 # otter_sdk_program(name): what an executable's sources need to be compiled and linked as a program.
 function(otter_sdk_program name)
-  target_include_directories(${name} BEFORE PRIVATE ${OTTER_SDK_INCLUDE})
+  target_include_directories(${name} BEFORE PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/include)
   target_compile_options(${name} PRIVATE -g -fno-pie -fwrapv -fno-strict-aliasing $<$<COMPILE_LANGUAGE:C>:-std=gnu11>)
   target_link_options(${name} PRIVATE -no-pie -Wl,-Ttext-segment=0x10000 -Wl,--wrap=main)
   target_link_libraries(${name} PRIVATE otter::sdk)
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF LINKER_LANGUAGE CXX
-    C_COMPILER_LAUNCHER "${OTTER_SDK_DIR}/otter-sdk-compile;${CMAKE_C_COMPILER_LAUNCHER}"
-    CXX_COMPILER_LAUNCHER "${OTTER_SDK_DIR}/otter-sdk-compile;${CMAKE_CXX_COMPILER_LAUNCHER}")
+    C_COMPILER_LAUNCHER "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/otter-sdk-compile;${CMAKE_C_COMPILER_LAUNCHER}"
+    CXX_COMPILER_LAUNCHER "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/otter-sdk-compile;${CMAKE_CXX_COMPILER_LAUNCHER}")
 endfunction()
 
 # otter_sdk_incbin(target scope symbol size file): a file as data, 8-byte aligned: `symbol`, `symbol`_end and its length.
