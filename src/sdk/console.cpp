@@ -6,7 +6,7 @@
 
 namespace sdk {
 
-Console& machine() {
+Console& the_console() {
   // Never destroyed: the program's thread may still run when the process ends.
   static auto& console = *new Console;
   return console;
@@ -16,14 +16,14 @@ bool is_usable(const void* p, const char* call, CallSite site) {
   constexpr std::uintptr_t first_page = 0x1000;
   const auto address = reinterpret_cast<std::uintptr_t>(p);
   if (address >= first_page) return true;
-  machine().lint.note("bad-pointer", site,
-                      std::string(call) + " is given " +
-                          (p == nullptr ? "a null pointer" : hex(static_cast<std::uint32_t>(address))));
+  the_console().lint.note("bad-pointer", site,
+                          std::string(call) + " is given " +
+                              (p == nullptr ? "a null pointer" : hex(static_cast<std::uint32_t>(address))));
   return false;
 }
 
 void after_blank() {
-  auto& console = machine();
+  auto& console = the_console();
   if (!console.callbacks_allowed) {
     console.blank_missed = true;
     return;

@@ -38,14 +38,14 @@ struct Console {
   void (*on_drawn)() = nullptr;   ///< DrawSyncCallback
   bool callbacks_allowed = true;  ///< outside critical sections
   bool blank_missed = false;      ///< in a critical section
-  bool reversed = false;         ///< lists are sent near to far
+  bool reversed = false;          ///< lists are sent near to far
   std::uint32_t last_list = 0;    ///< where the list drawn last begins
 
   // What a report tells.
   std::uint64_t lists = 0, nodes = 0, words = 0, bytes_copied = 0;
 };
 
-Console& machine();
+Console& the_console();
 
 /// On the program's thread, after a vertical blank: controllers, then the program's callback.
 void after_blank();

@@ -15,19 +15,19 @@ constexpr unsigned flag_register = 63, first_position = 12, last_position = 15;
 extern "C" {
 
 std::uint32_t otter_gte_get(unsigned number) {
-  auto& console = sdk::machine();
+  auto& console = sdk::the_console();
   if (number == flag_register) console.lint.flag_read();
   return gte::read(console.gte, number);
 }
 
 void otter_gte_put(unsigned number, std::uint32_t word) {
-  auto& console = sdk::machine();
+  auto& console = sdk::the_console();
   if (number >= first_position && number <= last_position) console.depth.write_position(number);
   gte::write(console.gte, number, word);
 }
 
 void otter_gte_do(std::uint32_t command) {
-  auto& console = sdk::machine();
+  auto& console = sdk::the_console();
   if (console.depth.is_on()) console.depth.project(console.gte, command);
   gte::execute(console.gte, command);
   // Only of projections: light and colour saturate in every frame.
@@ -37,7 +37,7 @@ void otter_gte_do(std::uint32_t command) {
 }
 
 void otter_gte_store_xy(void* to, unsigned number) {
-  auto& console = sdk::machine();
+  auto& console = sdk::the_console();
   const std::uint32_t word = gte::read(console.gte, first_position + number);
   std::memcpy(to, &word, sizeof word);
   if (!console.depth.is_on()) return;

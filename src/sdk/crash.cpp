@@ -35,7 +35,7 @@ void on_fatal(int number) {
   }
   caught = number;
   frame_count = backtrace(frames.data(), static_cast<int>(frames.size()));
-  machine().handover.stop(ProgramState::crashed);
+  the_console().handover.stop(ProgramState::crashed);
 }
 
 const char* name_of(int number) {

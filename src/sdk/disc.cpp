@@ -6,7 +6,7 @@
 namespace {
 
 void refuse(const char* call, sdk::CallSite site) {
-  sdk::machine().lint.note("no-disc", site, std::string(call) + " fails: there is no disc here");
+  sdk::the_console().lint.note("no-disc", site, std::string(call) + " fails: there is no disc here");
 }
 
 constexpr int sectors_a_second = 75, seconds_a_minute = 60, lead_in = 150;

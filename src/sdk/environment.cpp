@@ -87,11 +87,11 @@ void make_packet(DRAWENV& env) {
 void send(const DRAWENV& env) {
   std::array<std::uint32_t, sizeof(DR_ENV) / 4> words{};
   std::memcpy(words.data(), &env.dr_env, sizeof env.dr_env);
-  machine().feed.gp0(std::span(words).subspan(1, getlen(&env.dr_env)));
+  the_console().feed.gp0(std::span(words).subspan(1, getlen(&env.dr_env)));
 }
 
 void watch(const void* env, std::size_t bytes) {
-  if (is_linkable(env)) machine().lint.environment(address_of(env), static_cast<std::uint32_t>(bytes));
+  if (is_linkable(env)) the_console().lint.environment(address_of(env), static_cast<std::uint32_t>(bytes));
 }
 
 }  // namespace
@@ -106,13 +106,13 @@ void put_environment(DRAWENV* env, CallSite site) {
 }  // namespace sdk
 
 using sdk::Call;
-using sdk::machine;
+using sdk::the_console;
 
 extern "C" {
 
 void ResetGraph(int mode) {
   const Call call;
-  auto& feed = machine().feed;
+  auto& feed = the_console().feed;
   if (mode == 0) return feed.gp1(sdk::reset);
   feed.gp1(sdk::reset_buffer);
   feed.gp1(sdk::acknowledge);
@@ -124,7 +124,7 @@ void SetVideoMode(GPU_VideoMode mode) { sdk::video_mode = mode; }
 
 void SetDispMask(int mask) {
   const Call call;
-  machine().feed.gp1(sdk::display_enable | (mask != 0 ? 0U : 1U));
+  the_console().feed.gp1(sdk::display_enable | (mask != 0 ? 0U : 1U));
 }
 
 void PutDispEnv(const DISPENV* env) {
@@ -135,7 +135,7 @@ void PutDispEnv(const DISPENV* env) {
   const int half_width = (env->screen.w != 0 ? env->screen.w : 256) * 10 / 2;
   const int half_height = (env->screen.h != 0 ? env->screen.h : 240) / 2;
   const int x = env->screen.x + 0x760, y = env->screen.y + (sdk::video_mode == MODE_PAL ? 0xa3 : 0x88);
-  auto& feed = machine().feed;
+  auto& feed = the_console().feed;
   feed.gp1(sdk::display_start | sdk::low_bits(env->disp.x, 0x3ff) | sdk::low_bits(env->disp.y, 0x1ff) << 10);
   feed.gp1(sdk::horizontal_range | sdk::low_bits(x - half_width, 0xfff) |
            sdk::low_bits(x + half_width, 0xfff) << 12);
@@ -158,7 +158,7 @@ void PutDrawEnvFast(DRAWENV* env) {
 
 int GetODE(void) {
   const Call call;
-  return static_cast<int>(machine().gpu.status() >> 31);
+  return static_cast<int>(the_console().gpu.status() >> 31);
 }
 
 int IsIdleGPU(int) { return 0; }

@@ -9,7 +9,7 @@
 namespace sdk {
 
 namespace gp0 = ot::gp0;
-using gpu::PacketType;
+using dump::PacketType;
 
 void Feed::record(bool with_depth) {
   constexpr std::uint32_t second_chip = 2;
@@ -19,7 +19,7 @@ void Feed::record(bool with_depth) {
   dump_->add(PacketType::trace_begin);
 }
 
-const std::optional<gpu::Dump>& Feed::recording() {
+const std::optional<dump::Dump>& Feed::recording() {
   flush();
   return dump_;
 }
@@ -32,7 +32,7 @@ void Feed::flush() {
 void Feed::gp1(std::uint32_t word) {
   flush();
   if (dump_) dump_->add(PacketType::port1, std::span(&word, 1));
-  if (gpu::aborts_command(word)) stream_.abort();
+  if (dump::aborts_command(word)) stream_.abort();
   gpu_.gp1(word);
 }
 

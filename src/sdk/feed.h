@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "dump/dump.h"
 #include "gpu/canvas/options.h"
-#include "gpu/dump.h"
 #include "gpu/gpu.h"
 #include "ot/command_stream.h"
 #include "sdk/depth_notes.h"
@@ -31,7 +31,7 @@ class Feed {
   /// Records from now on. The depth words that the GPU gets are recorded only if asked for.
   void record(bool with_depth);
   /// The recording so far; nothing without record().
-  [[nodiscard]] const std::optional<gpu::Dump>& recording();
+  [[nodiscard]] const std::optional<dump::Dump>& recording();
 
   void gp1(std::uint32_t word);
   /// Words of GP0 that come from nowhere in particular.
@@ -68,7 +68,7 @@ class Feed {
   bool frame_is_open_ = false, canvas_is_open_ = false;
   std::optional<Corner> corner_;
   std::uint64_t without_depth_ = 0;
-  std::optional<gpu::Dump> dump_;
+  std::optional<dump::Dump> dump_;
   bool records_depth_ = false;
   std::vector<std::uint32_t> unrecorded_;  // of port 0
 };

@@ -68,7 +68,7 @@ Stream* stream(int id, const char* call, sdk::CallSite site) {
   auto& streams = font().streams;
   const auto index = id < 0 ? streams.size() - 1 : static_cast<std::size_t>(id);
   if (index < streams.size()) return &streams[index];
-  sdk::machine().lint.note(
+  sdk::the_console().lint.note(
       "bad-size", site, std::string(call) + ": stream " + std::to_string(id) + " was not opened by FntOpen");
   return nullptr;
 }

@@ -68,7 +68,7 @@ Busy::~Busy() {
   }
 }
 
-Call::Call() : lock_(machine().handover.console) {}
+Call::Call() : lock_(the_console().handover.console) {}
 
 void interrupt(void (*callback)()) {
   if (calls != 0) {

@@ -12,12 +12,12 @@
 #include <thread>
 #include <utility>
 
-#include "app/dump_file.h"
-#include "app/progress.h"
+#include "app/commands/progress.h"
+#include "base/write_file.h"
 #include "display/png.h"
-#include "display/present.h"
 #include "display/scanout.h"
-#include "display/write_file.h"
+#include "dump/dump_file.h"
+#include "machine/present.h"
 #include "scene/accurate.h"
 #include "scene/world.h"
 #include "sdk/console.h"
@@ -46,7 +46,7 @@ void* run_program(void* given) {
   std::string name = start.name;
   char* arguments[] = {name.data(), nullptr};
   start.main(1, arguments);
-  machine().handover.stop(ProgramState::ended);
+  the_console().handover.stop(ProgramState::ended);
 }
 
 [[noreturn]] void park() {
@@ -60,7 +60,7 @@ class Screen {
 
   /// Sets depth stage and canvas from the settings' knobs.
   void choose_targets(const scene::Knobs& knobs) {
-    auto& console = machine();
+    auto& console = the_console();
     knobs_ = knobs;
     Feed::Targets targets;
     targets.canvas = scene::canvas_options(knobs, scene::World{}, 1);
@@ -77,7 +77,7 @@ class Screen {
 
   /// A frame has ended: its canvas, if there is one, becomes a picture.
   void end_frame() {
-    auto& console = machine();
+    auto& console = the_console();
     const auto corner = console.feed.canvas_corner();
     if (console.gpu.canvas() == nullptr || !corner) return;
     drawn_[{corner->x, corner->y}] = presenter_.show(console.gpu, knobs_);
@@ -87,8 +87,8 @@ class Screen {
       drawn_.erase(drawn_.begin()->first == last_ ? std::prev(drawn_.end()) : drawn_.begin());
   }
 
-  [[nodiscard]] display::Picture picture() {
-    auto& console = machine();
+  [[nodiscard]] base::Picture picture() {
+    auto& console = the_console();
     auto area = display::area_of(console.gpu.display());
     if (settings_.shown == Shown::drawn) {
       area.x = console.gpu.state().left();
@@ -104,8 +104,8 @@ class Screen {
  private:
   const Settings& settings_;
   scene::Knobs knobs_;
-  display::Presenter presenter_;
-  std::map<std::pair<int, int>, display::Picture> drawn_;  // by the corner of the buffer in VRAM
+  machine::Presenter presenter_;
+  std::map<std::pair<int, int>, base::Picture> drawn_;  // by the corner of the buffer in VRAM
   std::pair<int, int> last_{};
 };
 
@@ -121,7 +121,7 @@ class Host {
       if (!window) return complain(window.error());
       window_ = std::move(*window);
     }
-    auto& console = machine();
+    auto& console = the_console();
     console.reversed = settings_.reversed;
     console.has_second_pad = !settings_.pads[1].empty();
     if (!settings_.record.empty()) console.feed.record(settings_.annotate);
@@ -132,7 +132,7 @@ class Host {
   }
 
  private:
-  int complain(const scene::Error& error) {
+  int complain(const base::Error& error) {
     std::fprintf(stderr, "%s: %s\n", name_.c_str(), error.text.c_str());
     return static_cast<int>(error.exit);
   }
@@ -149,7 +149,7 @@ class Host {
   }
 
   void loop() {
-    auto& console = machine();
+    auto& console = the_console();
     app::Progress progress(name_, settings_.frames.value_or(0));
     auto waited = Clock::now();
     for (;;) {
@@ -184,7 +184,7 @@ class Host {
   }
 
   void blank() {
-    auto& console = machine();
+    auto& console = the_console();
     console.feed.next_field();
     screen_.end_frame();
     const auto frame = ++console.blanks;
@@ -197,7 +197,7 @@ class Host {
   }
 
   [[nodiscard]] bool is_over() const {
-    return closed_ || (settings_.frames && machine().blanks >= *settings_.frames);
+    return closed_ || (settings_.frames && the_console().blanks >= *settings_.frames);
   }
 
   // One blank's worth of window; while paused, until it is no longer.
@@ -209,7 +209,7 @@ class Host {
       if (events.pause) paused_ = !paused_;
       steps = events.step;
       if (events.zbuffer) toggle_zbuffer();
-      if (settings_.pads[0].empty()) machine().pads[0] = events.pad;
+      if (settings_.pads[0].empty()) the_console().pads[0] = events.pad;
       window_->show(screen_.picture());
       keep_pace();
     } while (paused_ && !steps && !closed_);
@@ -249,7 +249,7 @@ class Host {
   }
 
   int finish() {
-    auto& console = machine();
+    auto& console = the_console();
     ending_.never_waited = !ever_waited_ && ending_.kind == Ending::Kind::reached;
     if (ending_.kind == Ending::Kind::crashed) {
       const auto crash = describe_crash();
@@ -264,34 +264,34 @@ class Host {
     if (settings_.json != "-") std::fputs(to_text(console, ending_, name_).c_str(), stderr);
     if (auto written = write_files(); !written) return complain(written.error());
     std::fflush(nullptr);
-    return ending_.kind == Ending::Kind::crashed ? static_cast<int>(scene::Exit::failed) : 0;
+    return ending_.kind == Ending::Kind::crashed ? static_cast<int>(base::Exit::failed) : 0;
   }
 
-  scene::Result<void> write_files() {
-    auto& console = machine();
+  base::Result<void> write_files() {
+    auto& console = the_console();
     if (!settings_.output.empty()) {
       const auto picture = screen_.picture();
       if (picture.width <= 0 || picture.height <= 0) {
-        return scene::fail(settings_.output + ": the display area is empty, expected PutDispEnv with a size",
-                           scene::Exit::failed);
+        return base::fail(settings_.output + ": the display area is empty, expected PutDispEnv with a size",
+                          base::Exit::failed);
       }
       if (auto done = display::write_png(settings_.output, picture); !done) return done;
     }
     if (!settings_.vram.empty()) {
-      if (auto done = app::save_vram(settings_.vram, console.gpu.vram()); !done) return done;
+      if (auto done = dump::save_vram(settings_.vram, console.gpu.vram()); !done) return done;
     }
     if (!settings_.record.empty()) {
       const auto& dump = *console.feed.recording();
-      if (auto done = app::save_dump(settings_.record, dump, gpu::DumpFormat::standard); !done) return done;
+      if (auto done = dump::save_dump(settings_.record, dump, dump::DumpFormat::standard); !done) return done;
     }
     if (!settings_.ram.empty()) {
       const auto words = console.ram.words();
-      if (auto done = display::write_file(settings_.ram, std::as_bytes(words)); !done) return done;
+      if (auto done = base::write_file(settings_.ram, std::as_bytes(words)); !done) return done;
       std::fprintf(stderr, "%s: the last list begins at %s: otter walk %s --head %X\n", name_.c_str(),
                    hex(console.last_list).c_str(), settings_.ram.c_str(), console.last_list);
     }
     if (!settings_.pad_log.empty()) {
-      if (auto done = display::write_file(settings_.pad_log, to_text(pad_log_) + "\n"); !done) return done;
+      if (auto done = base::write_file(settings_.pad_log, to_text(pad_log_) + "\n"); !done) return done;
     }
     if (settings_.json.empty()) return {};
     const auto json = to_json(console, ending_, name_);
@@ -299,7 +299,7 @@ class Host {
       std::fputs(json.c_str(), stdout);
       return {};
     }
-    return display::write_file(settings_.json, json);
+    return base::write_file(settings_.json, json);
   }
 
   const Settings& settings_;

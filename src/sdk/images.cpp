@@ -19,9 +19,9 @@ std::uint32_t pair(int x, int y) {
 bool is_usable_area(const RECT* rect, const char* call, CallSite site) {
   if (!is_usable(rect, call, site)) return false;
   if (rect->w >= 1 && rect->w <= 1024 && rect->h >= 1 && rect->h <= 512) return true;
-  machine().lint.note("bad-size", site,
-                      std::string(call) + " is given " + std::to_string(rect->w) + " x " +
-                          std::to_string(rect->h) + " pixels, expected 1 x 1 to 1024 x 512");
+  the_console().lint.note("bad-size", site,
+                          std::string(call) + " is given " + std::to_string(rect->w) + " x " +
+                              std::to_string(rect->h) + " pixels, expected 1 x 1 to 1024 x 512");
   return false;
 }
 
@@ -33,7 +33,7 @@ std::size_t words_of(const RECT& rect) {
 void load(const RECT* rect, const std::uint32_t* data, CallSite site) {
   const Call call;
   if (!is_usable_area(rect, "LoadImage", site) || !is_usable(data, "LoadImage", site)) return;
-  auto& feed = machine().feed;
+  auto& feed = the_console().feed;
   constexpr std::uint32_t clear_cache = 0x01000000, upload = 0xa0000000;
   feed.gp0(std::array{clear_cache});
   feed.gp0(std::array{upload, pair(rect->x, rect->y), pair(rect->w, rect->h)});
@@ -43,7 +43,7 @@ void load(const RECT* rect, const std::uint32_t* data, CallSite site) {
 void store(const RECT* rect, std::uint32_t* data, CallSite site) {
   const Call call;
   if (!is_usable_area(rect, "StoreImage", site) || !is_usable(data, "StoreImage", site)) return;
-  auto& feed = machine().feed;
+  auto& feed = the_console().feed;
   constexpr std::uint32_t download = 0xc0000000;
   feed.gp0(std::array{download, pair(rect->x, rect->y), pair(rect->w, rect->h)});
   feed.read(std::span(data, words_of(*rect)));
@@ -53,7 +53,7 @@ void move(const RECT* rect, int x, int y, CallSite site) {
   const Call call;
   if (!is_usable_area(rect, "MoveImage", site)) return;
   constexpr std::uint32_t copy = 0x80000000;
-  machine().feed.gp0(std::array{copy, pair(rect->x, rect->y), pair(x, y), pair(rect->w, rect->h)});
+  the_console().feed.gp0(std::array{copy, pair(rect->x, rect->y), pair(x, y), pair(rect->w, rect->h)});
 }
 
 /// The block of a TIM at `words`: length in bytes, position, size, pixels.

@@ -27,7 +27,7 @@ std::array<int, 7> dma_priorities{};
 /// Where a callback of an interrupt is kept. The vertical blank's and the GPU's are those of VSync and
 /// DrawSync.
 Callback* slot(IRQ_Channel irq) {
-  auto& console = machine();
+  auto& console = the_console();
   if (irq == IRQ_VBLANK) return &console.on_blank;
   if (irq == IRQ_GPU) return &console.on_drawn;
   return irq < interrupt_callbacks.size() ? &interrupt_callbacks[irq] : nullptr;
@@ -43,12 +43,12 @@ std::array<std::uint32_t, 4> counter_zero{};  // blanks when it was set to zero
 }  // namespace
 }  // namespace sdk
 
-using sdk::machine;
+using sdk::the_console;
 
 extern "C" {
 
 int VSync(int mode) {
-  auto& console = machine();
+  auto& console = the_console();
   if (mode == 1) return 0;
   if (mode >= 0) {
     for (int i = 0; i < (mode < 2 ? 1 : mode); ++i) {
@@ -61,7 +61,9 @@ int VSync(int mode) {
 }
 
 void* VSyncHaltFunction(void (*)(void)) { return nullptr; }
-void* VSyncCallback(void (*func)(void)) { return sdk::as_pointer(sdk::exchange(machine().on_blank, func)); }
+void* VSyncCallback(void (*func)(void)) {
+  return sdk::as_pointer(sdk::exchange(the_console().on_blank, func));
+}
 
 void SetDrawOpType(GPU_DrawOpType) {}
 
@@ -73,11 +75,11 @@ int EnqueueDrawOp(void (*func)(), uint32_t arg1, uint32_t arg2, uint32_t arg3) {
 }
 
 int DrawSync(int mode) {
-  if (mode == 0) machine().lint.sync();
+  if (mode == 0) the_console().lint.sync();
   return 0;
 }
 void* DrawSyncCallback(void (*func)(void)) {
-  return sdk::as_pointer(sdk::exchange(machine().on_drawn, func));
+  return sdk::as_pointer(sdk::exchange(the_console().on_drawn, func));
 }
 
 void* InterruptCallback(IRQ_Channel irq, void (*func)(void)) {
@@ -106,20 +108,20 @@ int GetDMAPriority(DMA_Channel dma) {
 }
 
 int ResetCallback(void) {
-  machine().on_blank = machine().on_drawn = nullptr;
+  the_console().on_blank = the_console().on_drawn = nullptr;
   return 0;
 }
-void RestartCallback(void) { machine().callbacks_allowed = true; }
-void StopCallback(void) { machine().callbacks_allowed = false; }
+void RestartCallback(void) { the_console().callbacks_allowed = true; }
+void StopCallback(void) { the_console().callbacks_allowed = false; }
 
 int EnterCriticalSection(void) {
-  auto& console = machine();
+  auto& console = the_console();
   const bool before = console.callbacks_allowed;
   console.callbacks_allowed = false;
   return before ? 1 : 0;
 }
 void ExitCriticalSection(void) {
-  auto& console = machine();
+  auto& console = the_console();
   console.callbacks_allowed = true;
   if (console.blank_missed) {
     console.blank_missed = false;
@@ -128,11 +130,11 @@ void ExitCriticalSection(void) {
 }
 
 void InitPAD(uint8_t* buff1, int len1, uint8_t* buff2, int len2) {
-  machine().pad_buffers = {sdk::PadBuffer{buff1, static_cast<std::size_t>(len1 < 0 ? 0 : len1)},
-                           sdk::PadBuffer{buff2, static_cast<std::size_t>(len2 < 0 ? 0 : len2)}};
+  the_console().pad_buffers = {sdk::PadBuffer{buff1, static_cast<std::size_t>(len1 < 0 ? 0 : len1)},
+                               sdk::PadBuffer{buff2, static_cast<std::size_t>(len2 < 0 ? 0 : len2)}};
 }
-void StartPAD(void) { machine().pads_run = true; }
-void StopPAD(void) { machine().pads_run = false; }
+void StartPAD(void) { the_console().pads_run = true; }
+void StopPAD(void) { the_console().pads_run = false; }
 void ChangeClearPAD(int) {}
 void ChangeClearRCnt(int, int) {}
 
@@ -140,19 +142,19 @@ int SetRCnt(int spec, uint16_t, int) { return ResetRCnt(spec); }
 int GetRCnt(int spec) {
   const auto n = static_cast<unsigned>(spec) & 0xff;
   if (n >= sdk::ticks_per_blank.size()) return 0;
-  return static_cast<int>((machine().blanks - sdk::counter_zero[n]) * sdk::ticks_per_blank[n] & 0xffff);
+  return static_cast<int>((the_console().blanks - sdk::counter_zero[n]) * sdk::ticks_per_blank[n] & 0xffff);
 }
 int StartRCnt(int spec) { return (static_cast<unsigned>(spec) & 0xff) < sdk::ticks_per_blank.size() ? 1 : 0; }
 int StopRCnt(int spec) { return StartRCnt(spec); }
 int ResetRCnt(int spec) {
   if (StartRCnt(spec) == 0) return 0;
-  sdk::counter_zero[static_cast<unsigned>(spec) & 0xff] = machine().blanks;
+  sdk::counter_zero[static_cast<unsigned>(spec) & 0xff] = the_console().blanks;
   return 1;
 }
 
 void FlushCache(void) {}
-void _boot(void) { machine().handover.stop(sdk::ProgramState::ended); }
+void _boot(void) { the_console().handover.stop(sdk::ProgramState::ended); }
 /// In place of the program's exit(): the host writes what was asked for.
-void otter_exit(int) { machine().handover.stop(sdk::ProgramState::ended); }
+void otter_exit(int) { the_console().handover.stop(sdk::ProgramState::ended); }
 
 }  // extern "C"

@@ -21,15 +21,15 @@ constexpr std::uint32_t end_of_list = 0xffffff;
 /// False, and a finding, if the 24 bits of a link cannot hold the address.
 bool can_link(const void* p, const char* what, CallSite site) {
   if (is_linkable(p)) return true;
-  machine().lint.note("bad-pointer", site,
-                      std::string(what) +
-                          " lies outside the 8 MiB that a link reaches: expected static data, "
-                          "main's stack or the program's heap");
+  the_console().lint.note("bad-pointer", site,
+                          std::string(what) +
+                              " lies outside the 8 MiB that a link reaches: expected static data, "
+                              "main's stack or the program's heap");
   return false;
 }
 
 void draw_list(const std::uint32_t* list, CallSite site) {
-  auto& console = machine();
+  auto& console = the_console();
   if (!can_link(list, "the list", site)) return;
   console.bytes_copied += copy_memory(console.ram);
   console.last_list = address_of(list);
@@ -58,7 +58,7 @@ void draw_list(const std::uint32_t* list, CallSite site) {
 }
 
 void run_drawn_callback() {
-  auto* callback = machine().on_drawn;
+  auto* callback = the_console().on_drawn;
   if (callback != nullptr) interrupt(callback);
 }
 
@@ -83,17 +83,17 @@ void draw_buffer(const std::uint32_t* words, std::size_t count, CallSite site) {
   const Call call;
   if (count == 0 || !is_usable(words, "DrawBuffer", site)) return;
   const auto address = is_linkable(words) ? address_of(words) : 0;
-  machine().feed.packet(std::span(words, count), address);
+  the_console().feed.packet(std::span(words, count), address);
 }
 
 void clear(std::uint32_t* table, std::size_t length, CallSite site) {
-  machine().lint.clear_table(address_of(table), static_cast<std::uint32_t>(length), site);
+  the_console().lint.clear_table(address_of(table), static_cast<std::uint32_t>(length), site);
 }
 
 bool can_clear(std::uint32_t* table, std::size_t length, CallSite site) {
   if (length != 0)
     return can_link(table, "the table", site) && can_link(table + length - 1, "the table's end", site);
-  machine().lint.note("bad-size", site, "a table of no entries is cleared");
+  the_console().lint.note("bad-size", site, "a table of no entries is cleared");
   return false;
 }
 
@@ -106,7 +106,7 @@ extern "C" {
 
 void otter_link(void* ot, void* first, void* last) {
   const sdk::Busy busy;
-  auto& console = sdk::machine();
+  auto& console = sdk::the_console();
   const auto* site = __builtin_return_address(0);
   if (!sdk::can_link(ot, "the table", site) || !sdk::can_link(first, "the packet", site) ||
       !sdk::can_link(last, "the last packet", site)) {

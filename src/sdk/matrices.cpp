@@ -11,7 +11,7 @@
 
 namespace {
 
-using sdk::machine;
+using sdk::the_console;
 
 constexpr gte::Command rt_v0 = 0x0486012, rt_ir = 0x049e012, rt_ir_tr = 0x0498012;
 
@@ -19,17 +19,17 @@ std::int16_t half(int value) { return static_cast<std::int16_t>(value); }
 
 void load_rotation(const MATRIX& m) {
   for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) machine().gte.rt[r][c].raw = m.m[r][c];
+    for (std::size_t c = 0; c < 3; ++c) the_console().gte.rt[r][c].raw = m.m[r][c];
   }
 }
 
 void load_ir(const std::int32_t (&v)[3]) {
-  for (std::size_t i = 0; i < 3; ++i) machine().gte.ir[i + 1] = half(v[i]);
+  for (std::size_t i = 0; i < 3; ++i) the_console().gte.ir[i + 1] = half(v[i]);
 }
 
 /// RT * b into `out`; b may be out.
 void multiply(const MATRIX& b, MATRIX& out) {
-  auto& gte = machine().gte;
+  auto& gte = the_console().gte;
   const MATRIX right = b;
   for (std::size_t c = 0; c < 3; ++c) {
     gte.v[0] = {right.m[0][c], right.m[1][c], right.m[2][c]};
@@ -75,7 +75,7 @@ std::int32_t square(std::int32_t v) {
 extern "C" {
 
 void InitGeom(void) {
-  auto& gte = machine().gte;
+  auto& gte = the_console().gte;
   gte.ofx.raw = gte.ofy.raw = 0;
   gte.h = 320;
   gte.zsf3.raw = ONE / 12;
@@ -84,14 +84,15 @@ void InitGeom(void) {
   gte.dqb.raw = 0x01400000;
 }
 
-void PushMatrix(void) { stack().push_back({machine().gte.rt, machine().gte.tr}); }
+void PushMatrix(void) { stack().push_back({the_console().gte.rt, the_console().gte.tr}); }
 void PopMatrix(void) {
   if (stack().empty()) {
-    machine().lint.note("bad-size", __builtin_return_address(0), "PopMatrix without a PushMatrix before it");
+    the_console().lint.note("bad-size", __builtin_return_address(0),
+                            "PopMatrix without a PushMatrix before it");
     return;
   }
-  machine().gte.rt = stack().back().rt;
-  machine().gte.tr = stack().back().tr;
+  the_console().gte.rt = stack().back().rt;
+  the_console().gte.tr = stack().back().tr;
   stack().pop_back();
 }
 
@@ -132,7 +133,7 @@ MATRIX* MulMatrix0(MATRIX* m0, MATRIX* m1, MATRIX* m2) {
 MATRIX* MulMatrix(MATRIX* m0, MATRIX* m1) { return MulMatrix0(m0, m1, m0); }
 
 MATRIX* CompMatrixLV(MATRIX* v0, MATRIX* v1, MATRIX* v2) {
-  auto& gte = machine().gte;
+  auto& gte = the_console().gte;
   load_rotation(*v0);
   gte.tr = {v0->t[0], v0->t[1], v0->t[2]};
   load_ir(v1->t);
@@ -144,7 +145,7 @@ MATRIX* CompMatrixLV(MATRIX* v0, MATRIX* v1, MATRIX* v2) {
 }
 
 VECTOR* ApplyMatrixLV(MATRIX* m, VECTOR* v0, VECTOR* v1) {
-  auto& gte = machine().gte;
+  auto& gte = the_console().gte;
   load_rotation(*m);
   load_ir({v0->vx, v0->vy, v0->vz});
   gte::execute(gte, rt_ir);

@@ -13,12 +13,12 @@ alignas(4096) std::byte stack[stack_bytes];
 
 }  // namespace
 
-scene::Result<void> check_layout() {
+base::Result<void> check_layout() {
   const auto end = reinterpret_cast<std::uintptr_t>(_end);
   if (is_linkable(__data_start) && end <= memory_end) return {};
-  return scene::fail("the program's static data ends at " + std::to_string(end) +
-                     ", expected an end within the " + std::to_string(memory_end) +
-                     " bytes that 24-bit links reach (built by otter_add_program?)");
+  return base::fail("the program's static data ends at " + std::to_string(end) +
+                    ", expected an end within the " + std::to_string(memory_end) +
+                    " bytes that 24-bit links reach (built by otter_add_program?)");
 }
 
 std::size_t copy_memory(ot::MainRam& ram) {

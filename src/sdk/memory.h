@@ -8,8 +8,8 @@
 #include <cstdint>
 #include <span>
 
+#include "base/result.h"
 #include "ot/main_ram.h"
-#include "scene/error.h"
 
 namespace sdk {
 
@@ -27,7 +27,7 @@ inline std::uint32_t address_of(const void* p) {
 }
 
 /// Error (exit 2): this program's static data does not lie in memory_begin..memory_end; names where it ends.
-scene::Result<void> check_layout();
+base::Result<void> check_layout();
 
 /// Copies static data, the program's stack and heap among it, to the same addresses of `ram` (8 MiB).
 /// Needs check_layout(). Returns the bytes copied.

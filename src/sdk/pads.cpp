@@ -72,7 +72,7 @@ bool hold(PadState& pad, std::string_view word) {
 
 }  // namespace
 
-scene::Result<PadScript> parse_pad_script(std::string_view text) {
+base::Result<PadScript> parse_pad_script(std::string_view text) {
   PadScript script;
   bool is_analog = false;
   for (const auto part : split(text, ',')) {
@@ -80,12 +80,12 @@ scene::Result<PadScript> parse_pad_script(std::string_view text) {
     const auto frame =
         colon == std::string_view::npos ? std::nullopt : number(part.substr(0, colon), 1'000'000'000);
     if (!frame) {
-      return scene::fail("--pad: \"" + std::string(part) + "\": expected FRAME:BUTTON+BUTTON, as 30:UP+X");
+      return base::fail("--pad: \"" + std::string(part) + "\": expected FRAME:BUTTON+BUTTON, as 30:UP+X");
     }
     PadState pad;
     for (const auto word : split(part.substr(colon + 1), '+')) {
       if (!word.empty() && !hold(pad, word)) {
-        return scene::fail(
+        return base::fail(
             "--pad: \"" + std::string(word) +
             "\": expected UP, DOWN, LEFT, RIGHT, TRIANGLE, CIRCLE, CROSS, SQUARE, L1, L2, L3, R1, R2, "
             "R3, START, SELECT, or a stick LX, LY, RX, RY = 0..255");

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "scene/error.h"
+#include "base/result.h"
 
 namespace sdk {
 
@@ -27,7 +27,7 @@ using PadScript = std::map<std::uint32_t, PadState>;
 /// at its left end and CIRCLE. Buttons UP DOWN LEFT RIGHT TRIANGLE CIRCLE CROSS (X) SQUARE L1 L2 L3 R1 R2 R3
 /// START SELECT; sticks LX LY RX RY = 0..255 make the controller an analog one, for good. Error: names the
 /// part that cannot be read.
-scene::Result<PadScript> parse_pad_script(std::string_view text);
+base::Result<PadScript> parse_pad_script(std::string_view text);
 
 /// The same words again.
 std::string to_text(const PadScript& script);

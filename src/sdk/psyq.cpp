@@ -91,7 +91,7 @@ SVECTOR* ApplyMatrixSV(MATRIX* m, SVECTOR* v0, SVECTOR* v1) {
   return v1;
 }
 VECTOR* ApplyRotMatrix(SVECTOR* v0, VECTOR* v1) {
-  auto& gte = sdk::machine().gte;
+  auto& gte = sdk::the_console().gte;
   gte.v[0] = {v0->vx, v0->vy, v0->vz, 0};
   gte::execute(gte, gte::Command(0x0486012));
   *v1 = {gte.mac[1], gte.mac[2], gte.mac[3]};
@@ -118,7 +118,7 @@ int ratan2(int y, int x) {
 // IR0 = 1 - (1 - near / z) * far / (far - near) of H / z, as DQA + DQB: no fog at `near`, all at `far`.
 void SetFogNearFar(long near, long far, long h) {
   if (far - near < 100 || h == 0) return;
-  auto& gte = sdk::machine().gte;
+  auto& gte = sdk::the_console().gte;
   gte.dqa.raw = half(static_cast<int>(-(near * far / (far - near)) * 256 / h));
   gte.dqb.raw = static_cast<std::int32_t>((far * 4096 / (far - near)) * 4096);
 }

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/options.h"
+#include "app/commands/options.h"
 
 namespace sdk {
 namespace {
@@ -33,7 +33,7 @@ bool Settings::needs_depth() const {
          knobs.position != usual.position || knobs.texture != usual.texture;
 }
 
-scene::Result<Settings> parse_settings(int argc, const char* const* argv) {
+base::Result<Settings> parse_settings(int argc, const char* const* argv) {
   Settings s;
   const auto name = std::filesystem::path(argv[0]).filename().string();
   CLI::App line("A program of the console's SDK, drawn by Otter.", name);
@@ -68,7 +68,7 @@ scene::Result<Settings> parse_settings(int argc, const char* const* argv) {
   } catch (const CLI::CallForHelp& help) {
     std::exit(line.exit(help));
   } catch (const CLI::ParseError& error) {
-    return scene::fail(app::one_line(error) + " (see ./" + name + " --help)");
+    return base::fail(app::one_line(error) + " (see ./" + name + " --help)");
   }
   s.shown = shown == "drawn" ? Shown::drawn : Shown::display;
   for (std::size_t i = 0; i < pads.size(); ++i) {
@@ -79,7 +79,7 @@ scene::Result<Settings> parse_settings(int argc, const char* const* argv) {
   }
   const auto visibility = s.knobs.visibility;
   if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
-    return scene::fail(
+    return base::fail(
         "--visibility: a program's lists can be drawn by ot, in their own order, or by zbuffer");
   }
   if (auto checked = scene::check_knobs(s.knobs); !checked) return tl::make_unexpected(checked.error());

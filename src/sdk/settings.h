@@ -31,6 +31,6 @@ struct Settings {
 };
 
 /// Error: one line that names the option. With --help, prints it and ends the process with 0.
-scene::Result<Settings> parse_settings(int argc, const char* const* argv);
+base::Result<Settings> parse_settings(int argc, const char* const* argv);
 
 }  // namespace sdk

@@ -12,7 +12,7 @@ extern "C" int __real_main(int argc, char** argv);  // NOLINT(bugprone-reserved-
 
 extern "C" int __wrap_main(int argc, char** argv) {  // NOLINT(bugprone-reserved-identifier)
   const auto name = std::filesystem::path(argv[0]).filename().string();
-  int status = static_cast<int>(scene::Exit::failed);
+  int status = static_cast<int>(base::Exit::failed);
   try {
     const auto settings = sdk::parse_settings(argc, argv);
     if (settings) {

@@ -46,22 +46,22 @@ constexpr std::array stick_axes{SDL_CONTROLLER_AXIS_RIGHTX, SDL_CONTROLLER_AXIS_
 
 }  // namespace
 
-scene::Result<std::unique_ptr<Window>> Window::open(const std::string& title) {
+base::Result<std::unique_ptr<Window>> Window::open(const std::string& title) {
   std::unique_ptr<Window> w(new Window);
   w->session_ = std::make_unique<app::SdlSession>();
   if (!w->session_->is_open())
-    return scene::fail("no window: " + w->session_->error() + " (--frames N runs without)");
+    return base::fail("no window: " + w->session_->error() + " (--frames N runs without)");
   w->window_.reset(SDL_CreateWindow(title.c_str(), SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, 960, 720,
                                     SDL_WINDOW_RESIZABLE));
   if (w->window_) w->renderer_.reset(SDL_CreateRenderer(w->window_.get(), -1, SDL_RENDERER_PRESENTVSYNC));
   if (w->window_ && !w->renderer_) w->renderer_.reset(SDL_CreateRenderer(w->window_.get(), -1, 0));
-  if (!w->renderer_) return scene::fail(std::string("no window: ") + SDL_GetError());
+  if (!w->renderer_) return base::fail(std::string("no window: ") + SDL_GetError());
   return w;
 }
 
 void Window::set_title(const std::string& title) { SDL_SetWindowTitle(window_.get(), title.c_str()); }
 
-void Window::show(const display::Picture& picture) {
+void Window::show(const base::Picture& picture) {
   SDL_SetRenderDrawColor(renderer_.get(), 0, 0, 0, 255);
   SDL_RenderClear(renderer_.get());
   if (picture.width > 0 && picture.height > 0) {

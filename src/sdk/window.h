@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "app/sdl.h"
-#include "display/picture.h"
-#include "scene/error.h"
+#include "app/window/sdl.h"
+#include "base/picture.h"
+#include "base/result.h"
 #include "sdk/pads.h"
 
 namespace sdk {
@@ -15,9 +15,9 @@ namespace sdk {
 class Window {
  public:
   /// Error (exit 2): there is no display.
-  static scene::Result<std::unique_ptr<Window>> open(const std::string& title);
+  static base::Result<std::unique_ptr<Window>> open(const std::string& title);
 
-  void show(const display::Picture& picture);
+  void show(const base::Picture& picture);
   void set_title(const std::string& title);
 
   struct Events {

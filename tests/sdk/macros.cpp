@@ -14,7 +14,7 @@ TEST_SUITE("sdk") {
   namespace {
 
   struct Fresh {
-    Fresh() { sdk::machine().gte = {}; }
+    Fresh() { sdk::the_console().gte = {}; }
   };
 
   /// How far `value` / 4096 is from `expected`, in 1/4096.
@@ -27,25 +27,25 @@ TEST_SUITE("sdk") {
   TEST_CASE_FIXTURE(Fresh, "gte_ldv3 loads three vectors, their z sign-extended") {
     const SVECTOR v[3] = {{1, -2, 3, 0}, {4, 5, -6, 0}, {7, 8, 9, 0}};
     gte_ldv3(&v[0], &v[1], &v[2]);
-    CHECK(sdk::machine().gte.v[0] == gte::Vertex{1, -2, 3, 0});
-    CHECK(sdk::machine().gte.v[1] == gte::Vertex{4, 5, -6, 0});
-    CHECK(sdk::machine().gte.v[2] == gte::Vertex{7, 8, 9, 0});
+    CHECK(sdk::the_console().gte.v[0] == gte::Vertex{1, -2, 3, 0});
+    CHECK(sdk::the_console().gte.v[1] == gte::Vertex{4, 5, -6, 0});
+    CHECK(sdk::the_console().gte.v[2] == gte::Vertex{7, 8, 9, 0});
   }
 
   TEST_CASE_FIXTURE(Fresh, "the loads of arrays take what the loads of one take") {
     const SVECTOR v[3] = {{1, -2, 3, 0}, {4, 5, -6, 0}, {7, 8, 9, 0}};
     gte_ldv3(&v[0], &v[1], &v[2]);
-    const auto expected = sdk::machine().gte;
-    sdk::machine().gte = {};
+    const auto expected = sdk::the_console().gte;
+    sdk::the_console().gte = {};
     gte_ldv3c(v);
-    CHECK(sdk::machine().gte == expected);
+    CHECK(sdk::the_console().gte == expected);
     struct {
       SVECTOR v;
       uint32_t colour;
     } with_colour[3] = {{v[0], 1}, {v[1], 2}, {v[2], 3}};
-    sdk::machine().gte = {};
+    sdk::the_console().gte = {};
     gte_ldv3c_vertc(with_colour);
-    CHECK(sdk::machine().gte == expected);
+    CHECK(sdk::the_console().gte == expected);
   }
 
   TEST_CASE_FIXTURE(Fresh, "matrices go to their registers and come back") {
@@ -58,16 +58,16 @@ TEST_SUITE("sdk") {
     CHECK(read.m[1][0] == 4);
     CHECK(read.t[2] == 12);
     gte_SetLightMatrix(&m);
-    CHECK(sdk::machine().gte.llm[2][1].raw == 8);
+    CHECK(sdk::the_console().gte.llm[2][1].raw == 8);
     gte_SetColorMatrix(&m);
-    CHECK(sdk::machine().gte.lcm[0][2].raw == 3);
+    CHECK(sdk::the_console().gte.lcm[0][2].raw == 3);
   }
 
   TEST_CASE_FIXTURE(Fresh, "colours of the macros are eight bits, those of the registers twelve") {
     gte_SetBackColor(1, 2, 255);
-    CHECK(sdk::machine().gte.bk[2].raw == 255 << 4);
+    CHECK(sdk::the_console().gte.bk[2].raw == 255 << 4);
     gte_SetFarColor(16, 0, 0);
-    CHECK(sdk::machine().gte.fc[0].raw == 256);
+    CHECK(sdk::the_console().gte.fc[0].raw == 256);
   }
 
   TEST_CASE_FIXTURE(Fresh, "the screen offset is kept in 16.16 and read back in pixels") {

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "gpu/dump.h"
+#include "dump/dump.h"
 #include "tests/app/program.h"
 
 TEST_SUITE("sdk") {
@@ -28,12 +28,12 @@ TEST_SUITE("sdk") {
       REQUIRE(run(name, arguments + " --vram vram.bin").status == 0);
       return tests::contents(path / "vram.bin");
     }
-    [[nodiscard]] gpu::Dump dump(const std::string& name, const std::string& arguments) const {
+    [[nodiscard]] dump::Dump recorded(const std::string& name, const std::string& arguments) const {
       REQUIRE(run(name, arguments + " --record r.psxgpu").status == 0);
       const auto bytes = tests::contents(path / "r.psxgpu");
-      auto dump = gpu::parse_dump(std::as_bytes(std::span(bytes)));
-      REQUIRE(dump);
-      return std::move(*dump);
+      auto parsed = dump::parse_dump(std::as_bytes(std::span(bytes)));
+      REQUIRE(parsed);
+      return std::move(*parsed);
     }
   };
 
@@ -107,17 +107,18 @@ TEST_SUITE("sdk") {
 
   TEST_CASE_FIXTURE(Programs, "a recording replays to the VRAM that the program left") {
     const auto live = vram("sdk_corridor", "--frames 10");
-    const auto recorded = dump("sdk_corridor", "--frames 10");
-    CHECK(recorded.vsyncs == 10);
+    const auto recording = recorded("sdk_corridor", "--frames 10");
+    CHECK(recording.vsyncs == 10);
     gpu::Gpu gpu;
-    gpu::replay(recorded, gpu);
+    dump::replay(recording, gpu);
     const auto pixels = gpu.vram().pixels();
     CHECK(std::memcmp(pixels.data(), live.data(), live.size()) == 0);
   }
 
   TEST_CASE_FIXTURE(Programs, "a recording carries depth only if asked, and is otherwise the same") {
-    const auto plain = dump("sdk_cube", "--frames 5"), annotated = dump("sdk_cube", "--frames 5 --annotate");
-    const auto depth_words = [](const gpu::Dump& d) {
+    const auto plain = recorded("sdk_cube", "--frames 5"),
+               annotated = recorded("sdk_cube", "--frames 5 --annotate");
+    const auto depth_words = [](const dump::Dump& d) {
       return std::count_if(d.words.begin(), d.words.end(),
                            [](std::uint32_t w) { return w >> 24 >= 0xe8 && w >> 24 <= 0xeb; });
     };
