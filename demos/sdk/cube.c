@@ -20,8 +20,8 @@ static SVECTOR corners[8] = {{-100, -100, -100, 0}, {100, -100, -100, 0}, {-100,
 static const uint8_t faces[6][4] = {{0, 1, 2, 3}, {5, 4, 7, 6}, {4, 5, 0, 1}, {2, 3, 6, 7}, {4, 0, 6, 2}, {1, 5, 3, 7}};
 static SVECTOR normals[6] = {{0, 0, -ONE, 0}, {0, 0, ONE, 0}, {0, -ONE, 0, 0}, {0, ONE, 0, 0}, {-ONE, 0, 0, 0}, {ONE, 0, 0, 0}};
 
-static MATRIX lights = {{{2048, 2048, -2048}, {0, 0, 0}, {0, 0, 0}}, {0, 0, 0}};
-static MATRIX light_colours = {{{ONE, 0, 0}, {ONE, 0, 0}, {ONE, 0, 0}}, {0, 0, 0}};
+static MATRIX lights = {{{2048, -1024, -3072}, {-3072, -1024, 1024}, {0, 0, 0}}, {0, 0, 0}};  // rows: towards a light
+static MATRIX light_colours = {{{ONE, 800, 0}, {ONE, 1200, 0}, {ONE, 2400, 0}}, {0, 0, 0}};  // columns: its colour
 
 static void set_up(void) {
   ResetGraph(0);
