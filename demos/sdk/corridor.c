@@ -62,7 +62,8 @@ static void set_up(void) {
 }
 
 /// One quad of a wall, from four corners in the order of the packet.
-static uint8_t* draw_quad(Buffer* buffer, uint8_t* next, SVECTOR* v, int shade) {
+static uint8_t* draw_quad(Buffer* buffer, uint8_t* next, SVECTOR* v, int brightness) {
+  const uint8_t shade = (uint8_t)brightness;
   int flag, bucket, area;
   POLY_FT4* quad = (POLY_FT4*)next;
   setPolyFT4(quad);

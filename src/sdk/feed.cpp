@@ -5,6 +5,7 @@
 
 #include "gpu/canvas/canvas.h"
 #include "ot/gp0.h"
+#include "ot/gp1.h"
 
 namespace sdk {
 
@@ -32,7 +33,7 @@ void Feed::flush() {
 void Feed::gp1(std::uint32_t word) {
   flush();
   if (dump_) dump_->add(PacketType::port1, std::span(&word, 1));
-  if (dump::aborts_command(word)) stream_.abort();
+  if (ot::gp1::aborts_command(word)) stream_.abort();
   gpu_.gp1(word);
 }
 
@@ -114,7 +115,7 @@ void Feed::place_canvas() {
   options.width = width;
   options.height = height;
   gpu_.set_canvas(options);
-  gpu_.canvas()->begin_frame(state.left(), state.top());
+  gpu_.begin_frame(state.left(), state.top());
   corner_ = Corner{state.left(), state.top()};
   canvas_is_open_ = true;
 }
@@ -127,12 +128,11 @@ void Feed::read(std::span<std::uint32_t> words) {
 }
 
 void Feed::end_frame() {
-  if (canvas_is_open_) without_depth_ += gpu_.canvas()->end_frame().polygons;
-  canvas_is_open_ = false;
-  if (gpu_.depth_plane() != nullptr && frame_is_open_) {
+  const bool has_depth = gpu_.depth_plane() != nullptr;
+  if (canvas_is_open_ || (has_depth && frame_is_open_))
     without_depth_ += gpu_.end_frame().polygons_without_depth;
-    gpu_.begin_frame();
-  }
+  if (has_depth && frame_is_open_) gpu_.begin_frame();
+  canvas_is_open_ = false;
   frame_is_open_ = false;
 }
 

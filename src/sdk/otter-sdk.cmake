@@ -21,7 +21,8 @@ endif()
 # otter_sdk_program(name): what an executable's sources need to be compiled and linked as a program.
 function(otter_sdk_program name)
   target_include_directories(${name} BEFORE PRIVATE ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/include)
-  target_compile_options(${name} PRIVATE -g -fno-pie -fwrapv -fno-strict-aliasing $<$<COMPILE_LANGUAGE:C>:-std=gnu11>)
+  target_compile_options(${name} PRIVATE -g -fno-pie -fwrapv -fno-strict-aliasing
+    $<$<COMPILE_LANGUAGE:C>:-std=gnu11>)
   target_link_options(${name} PRIVATE -no-pie -Wl,-Ttext-segment=0x10000 -Wl,--wrap=main)
   target_link_libraries(${name} PRIVATE otter::sdk)
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF LINKER_LANGUAGE CXX

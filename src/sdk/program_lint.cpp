@@ -149,8 +149,8 @@ void ProgramLint::environment(std::uint32_t address, std::uint32_t bytes) {
 void ProgramLint::textured(std::uint32_t page, std::uint32_t largest_u) {
   namespace draw_mode = ot::gp0::draw_mode;
   constexpr std::uint32_t width = 1024, second_megabyte = 1u << 11;
-  const auto depth = draw_mode::Depth::get(page);
-  const std::uint32_t texels_per_pixel = depth == 0 ? 4 : depth == 1 ? 2 : 1;
+  const auto format = draw_mode::Format::get(page);
+  const std::uint32_t texels_per_pixel = format == 0 ? 4 : format == 1 ? 2 : 1;
   const std::uint32_t right = draw_mode::PageX64::get(page) * 64 + largest_u / texels_per_pixel;
   if ((page & second_megabyte) != 0) {
     note("texture-page", draw_site_, "a texture page in the second megabyte of VRAM, which is not there");

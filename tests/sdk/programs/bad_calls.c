@@ -1,7 +1,8 @@
 // Calls that cannot be served, one of a kind.
 #include <psxgpu.h>
 
-static uint32_t table[4], loop[2];
+static uint32_t table[4];
+static POLY_F3 loop[2];
 static POLY_F3 triangle;
 static uint32_t pixels[4];
 
@@ -17,7 +18,7 @@ int main(void) {
   addPrim((uint32_t*)0x7fff00000000, &triangle);
   setaddr(&loop[0], &loop[1]);
   setaddr(&loop[1], &loop[0]);
-  DrawOTag(loop);
+  DrawOTag((const uint32_t*)loop);
   VSync(0);
   return 0;
 }
