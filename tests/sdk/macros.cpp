@@ -221,8 +221,7 @@ TEST_SUITE("sdk") {
       VECTOR given = v;
       SVECTOR out{};
       VectorNormalS(&given, &out);
-      const double length =
-          std::sqrt(double{out.vx} * out.vx + double{out.vy} * out.vy + double{out.vz} * out.vz);
+      const double length = std::hypot(out.vx, out.vy, out.vz);
       CHECK(std::abs(length - 4096) < 41);
     }
   }
