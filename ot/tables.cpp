@@ -14,21 +14,20 @@ std::vector<FoundTable> find_tables(std::span<const std::uint32_t> memory, std::
   const auto end_run = [&] {
     if (run.length >= least_table) tables.push_back(run);
   };
-  send_nodes(memory, first, nodes,
-                        [&](std::uint32_t address, std::span<const std::uint32_t> payload) {
-                          if (!payload.empty()) return;
-                          const std::uint32_t moved = address - last;
-                          const bool is_next = moved == links::unit || moved == 0 - links::unit;
-                          if (run.length > 0 && is_next && (run.length == 1 || moved == step)) {
-                            step = moved;
-                            ++run.length;
-                            run.address = std::min(run.address, address);
-                          } else {
-                            end_run();
-                            run = {address, 1};
-                          }
-                          last = address;
-                        });
+  send_nodes(memory, first, nodes, [&](std::uint32_t address, std::span<const std::uint32_t> payload) {
+    if (!payload.empty()) return;
+    const std::uint32_t moved = address - last;
+    const bool is_next = moved == links::unit || moved == 0 - links::unit;
+    if (run.length > 0 && is_next && (run.length == 1 || moved == step)) {
+      step = moved;
+      ++run.length;
+      run.address = std::min(run.address, address);
+    } else {
+      end_run();
+      run = {address, 1};
+    }
+    last = address;
+  });
   end_run();
   return tables;
 }

@@ -33,7 +33,7 @@ struct Options;
 /// What became of the polygons of a z-buffered frame.
 struct FrameEnd {
   std::uint32_t polygons_without_depth = 0;  ///< drawn in list order, neither tested nor stored
-  std::uint32_t first_without_depth = 0;     ///< command number of the first, if there is any
+  std::uint32_t first_without_depth = 0;     ///< command number of the first, from 0, if there is any
   std::uint32_t queued = 0;                  ///< semi-transparent polygons drawn in the second pass
 };
 

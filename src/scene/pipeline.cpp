@@ -94,7 +94,7 @@ base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, ot::MainRam& 
   if (end.polygons_without_depth != 0 && builder.plan().refuses_without_depth) {
     return base::fail(std::to_string(end.polygons_without_depth) +
                           " polygons without depth, the first is drawing command " +
-                          std::to_string(end.first_without_depth) +
+                          std::to_string(end.first_without_depth + 1) +
                           ": --without-depth list-order or bucket draws them",
                       base::Exit::failed);
   }

@@ -16,6 +16,7 @@
 #include "base/write_file.h"
 #include "display/png.h"
 #include "display/scanout.h"
+#include "display/vram_file.h"
 #include "dump/dump_file.h"
 #include "machine/present.h"
 #include "scene/accurate.h"
@@ -278,7 +279,7 @@ class Host {
       if (auto done = display::write_png(settings_.output, picture); !done) return done;
     }
     if (!settings_.vram.empty()) {
-      if (auto done = dump::save_vram(settings_.vram, console.gpu.vram()); !done) return done;
+      if (auto done = display::save_vram(settings_.vram, console.gpu.vram()); !done) return done;
     }
     if (!settings_.record.empty()) {
       const auto& dump = *console.feed.recording();

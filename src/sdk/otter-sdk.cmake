@@ -5,7 +5,7 @@
 #
 # or, for an unmodified project of PSn00bSDK, the same functions under its names:
 #
-#   cmake -S PROJECT -B build -DCMAKE_PROJECT_INCLUDE=.../otter-sdk.cmake
+#   cmake -S PROJECT -B build -DCMAKE_PROJECT_INCLUDE=/where/otter/is/otter-sdk.cmake
 #
 # A program is linked at 10000h without position independence, so that 24-bit links hold the addresses of its static
 # data; its objects get a heap in static storage and the console's random numbers in place of the system's.

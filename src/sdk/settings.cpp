@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "app/commands/options.h"
+#include "app/commands/arguments.h"
 
 namespace sdk {
 namespace {
@@ -60,9 +60,9 @@ base::Result<Settings> parse_settings(int argc, const char* const* argv) {
   line.add_option("--shown", shown, "the display area, or the buffer that was drawn into last [display]")
       ->type_name("drawn|display")
       ->check(CLI::IsMember({"drawn", "display"}).description(""));
-  app::add_knobs(line, s.knobs,
-                 {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far",
-                  "position", "texture", "filter", "colour", "antialias", "aa-filter", "resolution"});
+  app::Arguments(line).knobs(
+      s.knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far",
+                "position", "texture", "filter", "colour", "antialias", "aa-filter", "resolution"});
   try {
     line.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

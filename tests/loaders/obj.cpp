@@ -242,7 +242,8 @@ TEST_SUITE("loaders") {
     const tests::Folder folder;
     CHECK(refusal(load::load(folder.path() / "none.obj")).find("no such file") != std::string::npos);
     CHECK(refusal(load::load(folder.write("e.obj", ""))).find("empty") != std::string::npos);
-    CHECK(refusal(load::load(folder.write("m.stl", "solid"))).find(".obj or .x3d") != std::string::npos);
+    CHECK(refusal(load::load(folder.write("m.stl", "solid"))).find("OBJ (.obj) or X3D (.x3d)") !=
+          std::string::npos);
     std::filesystem::create_directory(folder.path() / "d.obj");
     CHECK(refusal(load::load(folder.path() / "d.obj")).find("not a regular file") != std::string::npos);
   }

@@ -71,6 +71,7 @@ template void Arguments::number(const char*, const char*, std::uint32_t&, std::u
                                 const char*);
 template void Arguments::number(const char*, const char*, std::uint64_t&, std::uint64_t, std::uint64_t,
                                 const char*);
+template void Arguments::number(const char*, const char*, std::optional<int>&, int, int, const char*);
 template void Arguments::number(const char*, const char*, std::optional<std::uint64_t>&, std::uint64_t,
                                 std::uint64_t, const char*);
 

@@ -20,7 +20,7 @@ base::Result<void> judge_without_depth(const std::string& source, const scene::K
   if (end.polygons_without_depth == 0) return {};
   const std::string found = source + ": " + std::to_string(end.polygons_without_depth) +
                             " polygons without depth, the first is drawing command " +
-                            std::to_string(end.first_without_depth);
+                            std::to_string(end.first_without_depth + 1);
   if (knobs.without_depth == WithoutDepth::error) {
     return base::fail(
         found + "; --without-depth list-order draws them, otter record --annotate writes depths",
