@@ -147,23 +147,20 @@ constexpr auto line_kernels = []<std::size_t... I>(std::index_sequence<I...>) {
 }  // namespace
 
 void draw_line(const Surface& surface, const Primitive& primitive) {
-  const auto path = line_path(primitive);
-  if (!path) {
+  LineJob job;
+  if (!put_line_path(job.path, primitive)) {
     ++surface.counters.discarded;
     return;
   }
   const DrawState& state = primitive.state;
   const Vertex &a = primitive.vertices[0], &b = primitive.vertices[1];
-  const LineJob job{
-      .pixels = surface.vram.pixels().data(),
-      .path = *path,
-      .may_leave_area = std::min(a.x, b.x) < state.left() || std::max(a.x, b.x) > state.right() ||
-                        std::min(a.y, b.y) < state.top() || std::max(a.y, b.y) > state.bottom() ||
-                        state.skipped_rows != SkippedRows::none,
-      .state = &state,
-      .mask_set = state.mask_set(),
-      .mask_test = state.mask_test(),
-  };
+  job.pixels = surface.vram.pixels().data();
+  job.may_leave_area = std::min(a.x, b.x) < state.left() || std::max(a.x, b.x) > state.right() ||
+                       std::min(a.y, b.y) < state.top() || std::max(a.y, b.y) > state.bottom() ||
+                       state.skipped_rows != SkippedRows::none;
+  job.state = &state;
+  job.mask_set = state.mask_set();
+  job.mask_test = state.mask_test();
   const LineMode mode{primitive.is_gouraud(), is_dithered(primitive), state.mask_test() != 0,
                       blend_of(primitive)};
   if (surface.trace != nullptr) {

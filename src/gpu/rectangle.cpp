@@ -39,7 +39,7 @@ void draw_rectangle(const Surface& surface, const Primitive& primitive) {
   const Box box = drawn_box(primitive);
   const int width = box.right - box.left + 1, height = box.bottom - box.top + 1;
   if (width <= 0 || height <= 0) return;
-  const Mode mode = mode_of(primitive);
+  const Mode mode = mode_of(primitive, false);
   Job job;
   put_constants(job, surface, primitive);
   if (is_plain_fill(surface, primitive, mode, box)) {

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
-#include <optional>
 #include <utility>
 
 #include "gpu/primitive.h"
@@ -123,28 +122,28 @@ class PerStep {
   double factor_, away_;
 };
 
-/// Nothing where the size rule refuses it.
-inline std::optional<LinePath> line_path(const Primitive& p) {
+/// False where the size rule refuses it. Filled in place: a copy costs as much as a short line.
+[[nodiscard]] inline bool put_line_path(LinePath& path, const Primitive& p) {
   const Vertex *a = &p.vertices[0], *b = &p.vertices[1];
   const int width = std::abs(b->x - a->x), height = std::abs(b->y - a->y);
-  if (is_too_large(width, height)) return std::nullopt;
+  if (is_too_large(width, height)) return false;
   const int steps = std::max(width, height);
   if (steps > 0 && a->x >= b->x) std::swap(a, b);
   constexpr std::int64_t one = std::int64_t{1} << 32;
   const auto start = [](std::uint8_t c) { return std::int32_t{c} * 4096 + 2048; };
   const PerStep per_step(steps);
   const std::int64_t step_x = per_step.distance(b->x - a->x), step_y = per_step.distance(b->y - a->y);
-  LinePath path{.x = a->x * one + one / 2 - 1024,
-                .y = a->y * one + one / 2 - (step_y < 0 ? 1024 : 0),
-                .step_x = step_x,
-                .step_y = step_y,
-                .colour = {start(a->r), start(a->g), start(a->b)},
-                .step_c = {},
-                .steps = steps};
+  path.x = a->x * one + one / 2 - 1024;
+  path.y = a->y * one + one / 2 - (step_y < 0 ? 1024 : 0);
+  path.step_x = step_x;
+  path.step_y = step_y;
+  path.colour = {start(a->r), start(a->g), start(a->b)};
+  path.step_c = {};
+  path.steps = steps;
   if (p.is_gouraud()) {
     path.step_c = {per_step.colour(b->r - a->r), per_step.colour(b->g - a->g), per_step.colour(b->b - a->b)};
   }
-  return path;
+  return true;
 }
 
 }  // namespace gpu

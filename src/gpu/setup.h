@@ -27,10 +27,10 @@ struct SpanList {
   [[nodiscard]] std::span<const Span> all() const { return {spans.data(), count}; }
 };
 
-/// Mode of a polygon or rectangle.
+/// Mode of a polygon or rectangle; `dither` is what is_dithered says, which is known of rectangles.
 /// Inline: returned from a call, its bytes are written one by one and read as one word, and the
 /// processor waits for that as long as a small rectangle takes to draw.
-inline Mode mode_of(const Primitive& primitive) {
+inline Mode mode_of(const Primitive& primitive, bool dither) {
   const bool is_textured = primitive.is_textured();
   const bool is_gouraud = primitive.kind == Kind::polygon && primitive.is_gouraud();
   const Shade shade = primitive.is_raw() ? Shade::raw : is_gouraud ? Shade::gouraud : Shade::flat;
@@ -38,7 +38,7 @@ inline Mode mode_of(const Primitive& primitive) {
   return {
       .surface = {.texture = is_textured ? primitive.state.texel_format() : TexelFormat::none,
                   .shade = shade,
-                  .dither = is_dithered(primitive)},
+                  .dither = dither},
       .blend = blend,
       .masked = blend == Blend::opaque && primitive.state.mask_test() != 0,
       .depth = false,

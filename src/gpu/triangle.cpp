@@ -184,7 +184,7 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
 }  // namespace
 
 void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass) {
-  Mode mode = mode_of(primitive);
+  Mode mode = mode_of(primitive, is_dithered(primitive));
   mode.depth = pass != Pass::console;
   if (pass == Pass::opaque) {
     mode.blend = Blend::opaque;

@@ -337,17 +337,17 @@ void Canvas::rectangle(const Primitive& p, const Paint& paint, const Clip& clip)
 }
 
 void Canvas::line(const Primitive& p, const Paint& paint, const Clip& clip) {
-  auto path = line_path(p);
-  if (!path) return;
+  LinePath path;
+  if (!put_line_path(path, p)) return;
   ++counters_.primitives;
-  for (int i = 0; i <= path->steps; ++i, path->advance()) {
+  for (int i = 0; i <= path.steps; ++i, path.advance()) {
     Vertex dot = p.vertices[0];
     if (p.is_gouraud()) {
-      dot.r = static_cast<std::uint8_t>(path->colour[0] >> 12);
-      dot.g = static_cast<std::uint8_t>(path->colour[1] >> 12);
-      dot.b = static_cast<std::uint8_t>(path->colour[2] >> 12);
+      dot.r = static_cast<std::uint8_t>(path.colour[0] >> 12);
+      dot.g = static_cast<std::uint8_t>(path.colour[1] >> 12);
+      dot.b = static_cast<std::uint8_t>(path.colour[2] >> 12);
     }
-    const int x = static_cast<int>(path->x >> 32), y = static_cast<int>(path->y >> 32);
+    const int x = static_cast<int>(path.x >> 32), y = static_cast<int>(path.y >> 32);
     draw_block(paint, make_flat_planes(grid_, dot, {}, 0, 1, 1), {x, x + 1}, {y, y + 1}, clip);
   }
 }
