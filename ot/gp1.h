@@ -152,4 +152,5 @@ using ReadyForCommand = Field<26, 1>;
 using ReadyToSend = Field<27, 1>;  ///< pixels of a download are waiting
 using ReadyForDma = Field<28, 1>;
 using DmaDirection = Field<29, 2>;
+using OddLine = Field<31, 1>;  ///< of the line being displayed
 }  // namespace ot::gpu_status

@@ -86,7 +86,6 @@ std::uint32_t Gpu::status() const {
   namespace status = ot::gpu_status;
   const DrawState& state = current_.state;
   const std::uint32_t mode = display_.mode;
-  const bool is_open = gathered_count_ != 0 || polyline_open_ || upload_.is_active();
   const bool sends = download_.is_active();
   const bool takes = !sends;
   const bool requests[] = {false, true, takes, sends};  // by DMA direction; the FIFO is never full
@@ -97,8 +96,9 @@ std::uint32_t Gpu::status() const {
          status::IsWidth368::put(gp1::display_mode::IsWidth368::get(mode)) | status::DisplayMode::put(mode) |
          status::IsDisplayOff::put(display_.is_off) | status::Irq::put(irq_) |
          status::DmaRequest::put(requests[dma_direction_]) |
-         status::ReadyForCommand::put(!is_open && !sends) | status::ReadyToSend::put(sends) |
-         status::ReadyForDma::put(takes) | status::DmaDirection::put(dma_direction_);
+         status::ReadyForCommand::put(is_between_commands() && !sends) | status::ReadyToSend::put(sends) |
+         status::ReadyForDma::put(takes) | status::DmaDirection::put(dma_direction_) |
+         status::OddLine::put(display_.is_interlaced() ? display_.odd_field : display_.odd_frame);
 }
 
 std::uint32_t Gpu::read() {
@@ -114,6 +114,7 @@ std::uint32_t Gpu::read() {
 
 void Gpu::next_field() {
   display_.odd_field = display_.is_interlaced() && !display_.odd_field;
+  display_.odd_frame = !display_.odd_frame;
   update_skipped_rows();
 }
 

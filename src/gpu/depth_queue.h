@@ -26,6 +26,7 @@ class DepthQueue {
   /// Far to near; equal ones in list order. [ours]
   void sort();
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
+  [[nodiscard]] std::vector<Entry>& entries() { return entries_; }
   [[nodiscard]] const std::uint16_t* palette(const Entry& entry) const {
     return palettes_[entry.palette].data();
   }
@@ -33,8 +34,14 @@ class DepthQueue {
   void clear();
   [[nodiscard]] std::uint64_t bytes() const;
 
- private:
   using Palette = std::array<std::uint16_t, ClutCache::size>;
+  /// All that it consists of, for saved states.
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    visitor(self.entries_, self.palettes_, self.last_load_);
+  }
+
+ private:
   std::vector<Entry> entries_;
   std::vector<Palette> palettes_;
   std::uint32_t last_load_ = 0;  // ClutCache::loads() when the last palette was copied

@@ -17,6 +17,7 @@ struct Display {
   std::uint32_t vertical_range = gp1::vertical_range::put(0x10, 0x100);       ///< GP1(07h)
   bool is_off = true;                                                         ///< GP1(03h)
   bool odd_field = false;  ///< the field being output, while interlaced
+  bool odd_frame = false;  ///< changes at every vertical blank
 
   [[nodiscard]] int start_x() const { return static_cast<int>(gp1::display_start::X::get(start)); }
   [[nodiscard]] int start_y() const { return static_cast<int>(gp1::display_start::Y::get(start)); }

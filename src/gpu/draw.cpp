@@ -220,6 +220,8 @@ void Gpu::begin_download(const std::uint32_t* words) {
                .y = corner.y,
                .width = static_cast<int>(gp0::transfer::width(words[2])),
                .height = static_cast<int>(gp0::transfer::height(words[2]))};
+  if (pixel_counts_ != nullptr)
+    pixel_counts_->downloads += static_cast<std::uint64_t>(download_.pixels_left());
 }
 
 /// The words are a stream of halfwords; only the last of an odd number is not a pixel.
@@ -281,6 +283,8 @@ void Gpu::begin_command() { current_.command_number = next_command_++; }
 
 void Gpu::note(Kind kind) {
   ++counters_.primitives[static_cast<std::size_t>(kind)];
+  if (!is_noted_) return;
+  if (pixel_counts_ != nullptr) pixel_counts_->add(current_);
   if (trace_ == nullptr) return;
   current_.bucket = trace_->bucket;
   trace_->draws.push_back(current_);

@@ -59,6 +59,40 @@ void Gpu::draw_queue() {
   queue_->clear();
 }
 
+/// For a GPU whose z-buffer is gone: untested, as polygons without depth are.
+void Gpu::draw_queue_in_order() {
+  for (const DepthQueue::Entry& entry : queue_->entries()) {
+    Surface target = surface();
+    target.clut = queue_->palette(entry);
+    target.draw = entry.draw;
+    draw_either(target, entry.primitive, Pass::console);
+  }
+  queue_ = nullptr;
+}
+
+void Gpu::set_trace(Trace* trace) {
+  const bool begins = trace != nullptr && trace != trace_;
+  trace_ = trace;
+  is_noted_ = trace_ != nullptr || pixel_counts_ != nullptr;
+  if (!begins) return;
+  upload_.draw = no_draw;
+  note_queue();
+}
+
+void Gpu::set_pixel_counts(PixelCounts* counts) {
+  pixel_counts_ = counts;
+  is_noted_ = trace_ != nullptr || pixel_counts_ != nullptr;
+}
+
+/// The queue's draw numbers are those of the trace; one that did not see the polygons gets them now.
+void Gpu::note_queue() {
+  if (!queue_ || trace_ == nullptr) return;
+  for (DepthQueue::Entry& entry : queue_->entries()) {
+    entry.draw = static_cast<std::uint32_t>(trace_->draws.size());
+    trace_->draws.push_back(entry.primitive);
+  }
+}
+
 std::uint64_t Gpu::queue_bytes() const { return queue_ ? queue_->bytes() : 0; }
 
 }  // namespace gpu

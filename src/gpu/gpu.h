@@ -12,12 +12,14 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "gpu/columns.h"
 #include "gpu/counters.h"
 #include "gpu/depth.h"
 #include "gpu/display.h"
+#include "gpu/pixel_counts.h"
 #include "gpu/primitive.h"
 #include "gpu/trace.h"
 #include "gpu/transfer.h"
@@ -35,6 +37,12 @@ struct FrameEnd {
   std::uint32_t polygons_without_depth = 0;  ///< drawn in list order, neither tested nor stored
   std::uint32_t first_without_depth = 0;     ///< command number of the first, from 0, if there is any
   std::uint32_t queued = 0;                  ///< semi-transparent polygons drawn in the second pass
+};
+
+/// Why bytes are not a state: what was expected and what was there, and the first byte that is wrong.
+struct StateError {
+  std::string message;
+  std::uint64_t offset = 0;
 };
 
 class DepthQueue;
@@ -58,8 +66,14 @@ class Gpu {
   /// GPUREAD: the next two pixels of a VRAM->CPU transfer, else what GP1(10h) latched.
   std::uint32_t read();
 
-  /// GPUSTAT of a GPU that is never busy.
+  /// GPUSTAT of a GPU that is never busy. Bit 31, the lowest bit of the line being displayed, has no line to
+  /// follow here: it changes with every vertical blank, so that a program that waits for it goes on.
   [[nodiscard]] std::uint32_t status() const;
+
+  /// The next word of GP0 begins a command.
+  [[nodiscard]] bool is_between_commands() const {
+    return gathered_count_ == 0 && !polyline_open_ && !upload_.is_active();
+  }
 
   [[nodiscard]] Vram& vram() { return vram_; }
   [[nodiscard]] const Vram& vram() const { return vram_; }
@@ -99,11 +113,27 @@ class Gpu {
   [[nodiscard]] canvas::Canvas* canvas() { return canvas_.get(); }
   [[nodiscard]] const canvas::Canvas* canvas() const { return canvas_.get(); }
 
+  // --- saved states ---
+
+  /// All that the words to come depend on: VRAM, registers, the CLUT cache, what is half sent, half received
+  /// or half annotated; of a z-buffered frame the depth plane and the queue. 1 MiB and about 1 KiB, 3 MiB
+  /// with a depth plane. Not in it: what the caller set (depth stage, canvas, limits, default depth, trace,
+  /// counters).
+  [[nodiscard]] std::vector<std::byte> save() const;
+  /// Goes on where save() was called, in this or another process, on any machine. What the caller set stays.
+  /// A depth plane goes on only in a GPU with the same depth options; with others the plane begins empty, and
+  /// without one the queue is drawn at once. A canvas takes its picture from VRAM.
+  /// Returns an error for a state of another version, cut short or damaged; the GPU is then as it was.
+  [[nodiscard]] std::optional<StateError> load(std::span<const std::byte> bytes);
+
   // --- watching ---
 
-  /// nullptr: nobody watches and nothing is paid.
-  void set_trace(Trace* trace) { trace_ = trace; }
+  /// nullptr: nobody watches and nothing is paid. Polygons that wait in the queue are the first draws of a
+  /// trace that begins.
+  void set_trace(Trace* trace);
   [[nodiscard]] Trace* trace() const { return trace_; }
+  /// nullptr: nobody counts and nothing is paid. The caller owns it and keeps it alive.
+  void set_pixel_counts(PixelCounts* counts);
   [[nodiscard]] const Counters& counters() const { return counters_; }
   void reset_counters() { counters_ = {}; }
   /// Bytes held besides VRAM, by purpose: depth plane, queue.
@@ -152,6 +182,14 @@ class Gpu {
   // frame.cpp
   void draw_with_depth();
   void draw_queue();
+  void draw_queue_in_order();
+  void note_queue();
+
+  // save.cpp
+  struct Saved;
+
+  /// Of an upload that its trace does not know: it becomes a draw when it goes on.
+  static constexpr std::uint32_t no_draw = 0xffffffff;
 
   // control.cpp
   void latch_register(std::uint32_t number);
@@ -181,6 +219,8 @@ class Gpu {
   std::unique_ptr<DepthQueue> queue_;  // only when something is semi-transparent
   FrameEnd frame_;
   Trace* trace_ = nullptr;
+  PixelCounts* pixel_counts_ = nullptr;
+  bool is_noted_ = false;  // there is a trace or somebody counts: one test a primitive
   std::unique_ptr<canvas::Canvas> canvas_;
   Counters counters_;
 };

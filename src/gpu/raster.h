@@ -29,6 +29,11 @@ void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass)
 void draw_rectangle(const Surface& surface, const Primitive& primitive);
 void draw_line(const Surface& surface, const Primitive& primitive);
 
+/// Pixels that each would visit: covered, inside the drawing area, in rows that are not skipped.
+std::uint64_t polygon_pixels(const Primitive& primitive);
+std::uint64_t rectangle_pixels(const Primitive& primitive);
+std::uint64_t line_pixels(const Primitive& primitive);
+
 /// Whole rectangles of VRAM that wrap at both edges; the drawing area does not matter.
 void fill_rectangle(const Surface& surface, const Primitive& primitive);
 void copy_rectangle(const Surface& surface, const Primitive& primitive);

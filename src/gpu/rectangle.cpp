@@ -35,6 +35,13 @@ TextureGradients texel_steps(const Primitive& primitive) {
 
 }  // namespace
 
+std::uint64_t rectangle_pixels(const Primitive& primitive) {
+  const Box box = drawn_box(primitive);
+  std::uint64_t rows = 0;
+  for (int y = box.top; y <= box.bottom; ++y) rows += primitive.state.skips(y) ? 0 : 1;
+  return box.right < box.left ? 0 : rows * static_cast<std::uint64_t>(box.right - box.left + 1);
+}
+
 void draw_rectangle(const Surface& surface, const Primitive& primitive) {
   const Box box = drawn_box(primitive);
   const int width = box.right - box.left + 1, height = box.bottom - box.top + 1;

@@ -54,6 +54,11 @@ class ClutCache {
   [[nodiscard]] const std::uint16_t* entries() const { return entries_.data(); }
   /// Counts loads: two primitives with the same number saw the same palette.
   [[nodiscard]] std::uint32_t loads() const { return loads_; }
+  /// All that it consists of, for saved states.
+  template <class Self, class Visitor>
+  static void visit(Self& self, Visitor&& visitor) {
+    visitor(self.entries_, self.loads_, self.tag_, self.loaded_);
+  }
 
  private:
   static constexpr std::uint32_t no_tag = 0xffffffff;

@@ -181,7 +181,23 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
   run(surface, mode, job, list.all(), in_order);
 }
 
+std::uint64_t triangle_pixels(const DrawState& state, const Three& t) {
+  const Corners corners{{{t[0]->x, t[0]->y}, {t[1]->x, t[1]->y}, {t[2]->x, t[2]->y}}};
+  if (is_too_large(corners) || doubled_area(corners) == 0) return 0;
+  SpanList list;
+  add_spans(list, state, sorted_by_row(corners), corners[0]);
+  std::uint64_t pixels = 0;
+  for (const Span& span : list.all()) pixels += static_cast<std::uint64_t>(span.count);
+  return pixels;
+}
+
 }  // namespace
+
+std::uint64_t polygon_pixels(const Primitive& primitive) {
+  const auto& v = primitive.vertices;
+  const std::uint64_t first = triangle_pixels(primitive.state, {&v[0], &v[1], &v[2]});
+  return primitive.is_quad() ? first + triangle_pixels(primitive.state, {&v[1], &v[2], &v[3]}) : first;
+}
 
 void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass) {
   Mode mode = mode_of(primitive, is_dithered(primitive));
