@@ -2,6 +2,7 @@
 include(CMakePackageConfigHelpers)
 
 install(TARGETS build_flags base gte ot gpu exact inspect EXPORT otter-targets)
+install(EXPORT otter-c-targets NAMESPACE otter:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
 install(EXPORT otter-targets NAMESPACE otter:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
 # The headers that other projects may include, and with them those that they include; all others may change at any time.
 # tests/consumer/run compiles all.
@@ -33,3 +34,16 @@ configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/otter-config.cmake.in 
 write_basic_package_version_file(${CMAKE_BINARY_DIR}/otter-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${CMAKE_BINARY_DIR}/otter-config.cmake ${CMAKE_BINARY_DIR}/otter-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
+
+# cpack --config build/release/CPackConfig.cmake: one Debian package with the program, the libraries and their headers.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME otter)
+set(CPACK_PACKAGE_CONTACT "The maintainers of Otter <otter@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_SECTION devel)
+include(CPack)

@@ -1,0 +1,2 @@
+// The example in C is C++ as well.
+#include "dump_to_png.c"
