@@ -35,7 +35,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/otter-config-version.cmake 
 install(FILES ${CMAKE_BINARY_DIR}/otter-config.cmake ${CMAKE_BINARY_DIR}/otter-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
 
-# cpack --config build/release/CPackConfig.cmake: one Debian package with the program, the libraries and their headers.
+# (cd build/release && cpack): one Debian package with the program, the libraries and their headers.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME otter)
 set(CPACK_PACKAGE_CONTACT "The maintainers of Otter <otter@localhost>")

@@ -1,4 +1,4 @@
-// The C library as a host uses it: nothing but otter/otter.h.
+// The C library as a host uses it: nothing but src/door/include/otter/otter.h.
 
 #include <doctest/doctest.h>
 #include <otter/otter.h>
