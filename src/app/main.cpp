@@ -5,6 +5,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <iostream>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -13,7 +15,9 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/progress.h"
 #include "app/target.h"
+#include "base/message.h"
 #include "commit.h"
 
 namespace {
@@ -24,8 +28,15 @@ constexpr int bad_usage = static_cast<int>(base::Exit::bad_input);
 constexpr int failed = static_cast<int>(base::Exit::failed);
 
 int complain(const std::string& where, const std::string& text, int status) {
-  std::fprintf(stderr, "%s: %s\n", where.c_str(), text.c_str());
+  base::complain(where, text);
   return status;
+}
+
+// A full disk shows when the last of standard output is written.
+int end_output(const std::string& where, int status) {
+  std::cout.flush();
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
+  return is_written ? status : complain(where, "standard output: cannot be written", failed);
 }
 
 // The subcommand on the command line, if any: errors and help are about it.
@@ -83,21 +94,24 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    return program.exit(help_or_version);
+    return end_output("otter", program.exit(help_or_version));
   } catch (const CLI::ParseError& error) {
     const std::string name = &chosen(program) == &program ? "otter" : "otter " + chosen(program).get_name();
     return complain(name, app::one_line(error) + " (see " + name + " --help)", bad_usage);
   }
   for (const auto& [sub, action] : actions) {
     if (!sub->parsed()) continue;
-    const auto status = action();
-    if (!status)
-      return complain("otter " + sub->get_name(), status.error().text, static_cast<int>(status.error().exit));
-    // A full disk or a closed pipe shows when the last of stdout is written.
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-      return complain("otter " + sub->get_name(), "standard output: cannot be written", failed);
-    }
-    return *status;
+    const std::string name = "otter " + sub->get_name();
+    const bool has_window = sub->get_name() == "run";
+    // The display server's end is told by Xlib; whoever reads standard output no more ends this program at
+    // once and silently, as it ends any other in a pipeline.
+    if (has_window) std::signal(SIGPIPE, SIG_IGN);
+    const auto status = app::guard_outputs(*sub).and_then([&] {
+      const auto busy = has_window ? nullptr : std::make_unique<app::Busy>(name);
+      return action();
+    });
+    if (!status) return complain(name, status.error().text, static_cast<int>(status.error().exit));
+    return end_output(name, *status);
   }
   return bad_usage;
 }
@@ -105,10 +119,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A pipe that was closed and a file beyond the allowed size are errors to report, not the end of the
-  // program.
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the allowed size is an error to report
   try {
     return run(argc, argv);
   } catch (const std::bad_alloc&) {

@@ -18,10 +18,12 @@ Viewer::Viewer(scene::Scene scene, const scene::Knobs& knobs)
     base_ = world.camera;
     world.camera = moved(base_, offset_, pivot_distance_);
   };
-  auto first = scene_.world;
-  scene_.animate(first, 0);
-  first.camera = base_;
-  pivot_distance_ = pivot_distance(first);
+  {
+    auto first = scene_.world;
+    scene_.animate(first, 0);
+    first.camera = base_;
+    pivot_distance_ = pivot_distance(first);
+  }
   report_ = machine_.builder(knobs).report();
 }
 
@@ -35,7 +37,9 @@ base::Result<scene::FrameStats> Viewer::draw(std::int64_t frame, const scene::Kn
                                              const CameraOffset& camera) {
   if (auto checked = scene::check_knobs(knobs); !checked) return tl::make_unexpected(checked.error());
   offset_ = camera;
-  report_ = machine_.builder(knobs).report();
+  auto& builder = machine_.builder(knobs);
+  builder.set_keep_going(keep_going_);
+  report_ = builder.report();
   const bool continues = frame == last_frame_ + 1 && knobs == last_knobs_;
   if (!continues) machine_.presenter().forget();
   const int before = continues ? 0 : machine::Presenter::frames_before(knobs);
@@ -49,6 +53,8 @@ base::Result<scene::FrameStats> Viewer::draw(std::int64_t frame, const scene::Kn
   }
   return stats;
 }
+
+void Viewer::set_keep_going(std::function<bool(double)> keep_going) { keep_going_ = std::move(keep_going); }
 
 std::vector<const scene::KnobInfo*> Viewer::unwatched_knobs(const scene::Knobs& knobs) {
   const auto& builder = machine_.builder(knobs);

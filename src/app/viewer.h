@@ -31,6 +31,8 @@ class Viewer {
   base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                        const CameraOffset& camera = {});
 
+  /// Asked while visibility bsp seeks an order: see scene::FrameBuilder::set_keep_going.
+  void set_keep_going(std::function<bool(double)> keep_going);
   /// From the next draw() on every pixel written is noted in `trace`, until nullptr ends it.
   void watch(gpu::Trace* trace) { machine_.gpu().set_trace(trace); }
 
@@ -61,6 +63,7 @@ class Viewer {
   scene::Knobs last_knobs_;
   machine::Machine machine_{scene_};
   std::vector<std::string> report_;  // of the builder last used
+  std::function<bool(double)> keep_going_;
 };
 
 }  // namespace app

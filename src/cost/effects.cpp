@@ -26,9 +26,11 @@ class Variants {
  public:
   explicit Variants(Timed whole) : whole_(std::move(whole)) {}
   void add(Effect effect, Timed without) { variants_.push_back({std::move(effect), std::move(without), {}}); }
-  void run(int round) {
-    if (variants_.empty()) time_whole();
+  /// `keep_going` is asked before each timing.
+  void run(int round, const std::function<bool()>& keep_going) {
+    if (variants_.empty() && keep_going()) time_whole();
     for (Variant& v : variants_) {
+      if (!keep_going()) return;
       const bool whole_first = round % 2 == 0;
       const double before = whole_first ? time_whole() : 0;
       const auto without = v.without();
@@ -36,9 +38,11 @@ class Variants {
       if (without) v.differences.push_back(with - *without);
     }
   }
-  [[nodiscard]] double whole_ms() const { return median(wholes_); }
+  [[nodiscard]] std::size_t timings() const { return std::max<std::size_t>(1, variants_.size()); }
+  [[nodiscard]] double whole_ms() const { return wholes_.empty() ? 0 : median(wholes_); }
   void report(std::vector<Effect>& out) const {
     for (const Variant& v : variants_) {
+      if (v.differences.empty()) continue;  // stopped before it had a turn
       out.push_back(v.effect);
       out.back().ms = median(v.differences);
       out.back().spread = spread(v.differences);
@@ -154,18 +158,9 @@ void find_kernels_and_buffers(const gpu::Gpu& gpu, const Drawn& drawn, EffectRep
   for (const auto& buffer : gpu.canvas()->buffers()) add(std::string(buffer.name), buffer.bytes);
 }
 
-/// Pixels that each draw wrote.
-std::vector<std::uint64_t> count_written(const gpu::Trace& trace) {
-  std::vector<std::uint64_t> written(trace.draws.size());
-  for (const auto& event : trace.history) {
-    if (!event.rejected) ++written[event.draw];
-  }
-  return written;
-}
-
 /// Primitives that ask for an effect, and what they wrote.
 template <class Asks>
-Effect counted(std::string name, const gpu::Trace& trace, std::span<const std::uint64_t> written,
+Effect counted(std::string name, const gpu::Trace& trace, std::span<const std::uint32_t> written,
                Asks&& asks) {
   Effect effect{std::move(name)};
   for (std::size_t i = 0; i < trace.draws.size(); ++i) {
@@ -208,16 +203,25 @@ std::set<Corners> lit_polygons(Subject& subject, const scene::Scene& scene, cons
 
 /// As often as asked, or nine times at least and then as often as fits into a second or two: the differences
 /// of short frames are small beside the noise of a clock and a machine.
-void time_all(Variants& packets, Variants& frames, int rounds) {
+bool time_all(Variants& packets, Variants& frames, int rounds, const KeepGoing& keep_going) {
   constexpr int least = 9;
   constexpr int most = 201;
   constexpr std::chrono::milliseconds budget(1500);
   const auto begin = std::chrono::steady_clock::now();
+  std::size_t done = 0;
+  const auto all =
+      static_cast<std::size_t>(rounds > 0 ? rounds : least) * (packets.timings() + frames.timings());
+  bool goes_on = true;
+  const auto ask = [&] {
+    return goes_on = goes_on && (!keep_going || keep_going(std::min(done++, all), all));
+  };
   for (int round = 0; round < (rounds > 0 ? rounds : most); ++round) {
     if (rounds == 0 && round >= least && std::chrono::steady_clock::now() - begin > budget) break;
-    packets.run(round);
-    frames.run(round);
+    packets.run(round, ask);
+    frames.run(round, ask);
+    if (!goes_on) break;
   }
+  return goes_on;
 }
 
 /// Draws whose texels lie where the canvas stands in for VRAM: they see what VRAM holds, not what was drawn.
@@ -228,9 +232,9 @@ bool reads_frame(const gpu::Primitive& p, const scene::Knobs& knobs) {
 }  // namespace
 
 base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
-                                        const scene::Knobs& knobs, int rounds) {
+                                        const scene::Knobs& knobs, int rounds, const KeepGoing& keep_going) {
   Subject subject(scene, frame);
-  EffectReport report{scene.name, frame, knobs.width, knobs.height, 0, {}, {}, {}, {}};
+  EffectReport report{scene.name, frame, knobs.width, knobs.height, 0, {}, {}, {}, {}, true};
   const auto drawn = subject.draw(knobs);
   if (!drawn) return tl::make_unexpected(drawn.error());
   auto words = subject.words(knobs);
@@ -246,7 +250,7 @@ base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t
           "not draw into");
     }
   }
-  const auto written = count_written(trace);
+  const auto& written = trace.written;
 
   Variants packets([&] { return subject.draw_words(knobs, *words); });
   const auto asked = packet_effects();
@@ -277,7 +281,7 @@ base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t
                 [&lit](const gpu::Primitive& p) { return is_polygon(p) && lit.contains(corners_of(p)); }),
         [&] { return total_ms(unlit, knobs); });
   }
-  time_all(packets, frames, rounds);
+  report.is_complete = time_all(packets, frames, rounds, keep_going);
   report.ms = frames.whole_ms();
   packets.report(report.effects);
   frames.report(report.effects);

@@ -31,13 +31,18 @@ struct EffectReport {
   std::vector<std::string> kernels;  ///< that ran, most often first, with how often
   std::vector<NamedBytes> buffers;   ///< besides the 1 MiB of VRAM
   std::vector<std::string>
-      notes;  ///< where the picture may differ from the console's for a reason of our own
+      notes;                ///< where the picture may differ from the console's for a reason of our own
+  bool is_complete = true;  ///< false: keep_going ended it
 };
+
+/// Asked before each timing; false: report what is measured so far.
+using KeepGoing = std::function<bool(std::size_t done, std::size_t all)>;
 
 /// Error: the frame cannot be drawn. `rounds` timings of each variant, each beside one of the whole frame; 0:
 /// as many as it takes for prices to settle, within about two seconds.
 base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
-                                        const scene::Knobs& knobs, int rounds = 0);
+                                        const scene::Knobs& knobs, int rounds = 0,
+                                        const KeepGoing& keep_going = {});
 
 std::string to_text(const EffectReport& report);
 /// {"schema":"otter.effects/1",...}

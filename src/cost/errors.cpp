@@ -122,6 +122,7 @@ base::Result<void> ErrorMeter::judge_surfaces(const scene::Knobs& knobs, Errors&
   auto found = verdicts_.find(key);
   if (found == verdicts_.end()) {
     gpu::Trace trace;
+    trace.keep_history = true;
     if (auto traced = subject_.trace_console(knobs, trace); !traced) return traced;
     const auto order = knobs.visibility == scene::Visibility::zbuffer ? inspect::Order::depth
                        : knobs.visibility == scene::Visibility::bsp   ? inspect::Order::exact

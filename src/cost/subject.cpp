@@ -68,6 +68,7 @@ base::Result<void> Subject::trace(const scene::Knobs& knobs, gpu::Trace& trace) 
   const auto drawn = scene::render_frame(build, seconds(), knobs, machine_.ram(), gpu);
   gpu.set_trace(nullptr);
   if (!drawn) return tl::make_unexpected(drawn.error());
+  if (trace.is_full) return base::fail(scene_.name + ": " + trace.limit_text());
   return {};
 }
 
@@ -80,7 +81,6 @@ base::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
   knobs.antialias = console.antialias;
   knobs.fog = console.fog;
   knobs.resolution = console.resolution;
-  to.keep_history = true;
   return trace(knobs, to);
 }
 

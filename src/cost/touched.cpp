@@ -84,6 +84,7 @@ base::Result<Touched> touched(Subject& subject, const scene::Knobs& knobs, const
     t.depth = subject.gpu().depth_bytes();
     t.filter = shown * (vram_pixel + shown_pixel);
     gpu::Trace trace;
+    trace.keep_history = true;
     if (auto traced = subject.trace_console(knobs, trace); !traced)
       return tl::make_unexpected(traced.error());
     count_vram(trace, knobs.visibility == scene::Visibility::bsp, t);

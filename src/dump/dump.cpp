@@ -26,6 +26,15 @@ constexpr std::string_view any_version{"PSXGPUDUMP"};
 
 /// A read of more than all of VRAM is a mistake, however many commands came before it.
 constexpr std::uint32_t max_read_words = gpu::Vram::size / 2;
+constexpr std::uint64_t max_readback_bytes = std::uint64_t{128} << 20;
+
+constexpr std::uint64_t usual_held_bytes = std::uint64_t{192} << 20;
+
+/// What is wrong, and at which byte.
+struct Error {
+  std::uint64_t offset;
+  std::string text;
+};
 
 std::string hex_byte(std::uint32_t value) {
   constexpr std::string_view digits = "0123456789ABCDEF";
@@ -81,60 +90,65 @@ class Checker {
   std::uint64_t command_offset_ = 0;
 };
 
-/// The one word that some packets consist of, or what is wrong with it.
-Parsed<std::uint32_t> single_word(const Dump& dump, const Packet& packet) {
-  if (packet.count == 1) return {dump.words[packet.first], {}, 0};
-  return Parsed<std::uint32_t>::error(
-      packet.offset, "packet of type " + hex_byte(static_cast<std::uint32_t>(packet.type)) + " has " +
-                         std::to_string(packet.count) + " words, 1 was expected");
-}
+/// What each packet means, one after the other.
+class PacketChecker {
+ public:
+  explicit PacketChecker(Dump& dump) : dump_(dump), commands_(dump) {}
 
-/// What the packets mean, once all of them are there.
-Parsed<Dump> check(Dump dump) {
-  Checker checker(dump);
-  std::uint64_t readback_bytes = 0;
-  for (const auto& packet : dump.packets) {
+  /// What is wrong with the packet; empty: nothing.
+  std::optional<Error> take(const Packet& packet) {
     switch (packet.type) {
       case PacketType::port0:
-        checker.port0(packet);
-        break;
+        commands_.port0(packet);
+        return {};
       case PacketType::port1:
-        checker.port1(packet);
-        break;
+        commands_.port1(packet);
+        return {};
       case PacketType::vsync:
-        ++dump.vsyncs;
-        break;
+        ++dump_.vsyncs;
+        return {};
       case PacketType::discard:
-      case PacketType::readback: {
-        const auto count = single_word(dump, packet);
-        if (!count) return Parsed<Dump>::error(count.offset, count.message);
-        if (*count.value > max_read_words) {
-          return Parsed<Dump>::error(packet.offset + 4, "reads " + std::to_string(*count.value) +
-                                                            " words, VRAM holds " +
-                                                            std::to_string(max_read_words));
-        }
-        if (packet.type == PacketType::readback) readback_bytes += 4 * std::uint64_t{*count.value};
-        if (readback_bytes > max_unpacked_bytes) {
-          return Parsed<Dump>::error(packet.offset,
-                                     "reads back more than " + std::to_string(max_unpacked_bytes) + " bytes");
-        }
-        break;
-      }
-      case PacketType::gpu_version: {
-        const auto version = single_word(dump, packet);
-        if (!version) return Parsed<Dump>::error(version.offset, version.message);
-        dump.gpu_version = *version.value + (dump.format == DumpFormat::v1 ? 1 : 0);
-        break;
-      }
+      case PacketType::readback:
+        return read(packet);
+      case PacketType::gpu_version:
+        if (packet.count != 1) return not_single(packet);
+        dump_.gpu_version = dump_.words[packet.first] + (dump_.format == DumpFormat::v1 ? 1 : 0);
+        return {};
       default:
-        break;  // texts, marks, and what later revisions add
+        return {};  // texts, marks, and what later revisions add
     }
   }
-  if (auto open = checker.open_command(); !open.empty()) {
-    return Parsed<Dump>::error(checker.command_offset(), std::move(open));
+
+  [[nodiscard]] std::optional<Error> end() const {
+    if (auto open = commands_.open_command(); !open.empty()) {
+      return Error{commands_.command_offset(), std::move(open)};
+    }
+    return {};
   }
-  return {std::move(dump), {}, 0};
-}
+
+ private:
+  static Error not_single(const Packet& packet) {
+    return {packet.offset, "packet of type " + hex_byte(static_cast<std::uint32_t>(packet.type)) + " has " +
+                               std::to_string(packet.count) + " words, 1 was expected"};
+  }
+  std::optional<Error> read(const Packet& packet) {
+    if (packet.count != 1) return not_single(packet);
+    const std::uint32_t count = dump_.words[packet.first];
+    if (count > max_read_words) {
+      return Error{packet.offset + 4,
+                   "reads " + std::to_string(count) + " words, VRAM holds " + std::to_string(max_read_words)};
+    }
+    if (packet.type == PacketType::readback) readback_bytes_ += 4 * std::uint64_t{count};
+    if (readback_bytes_ > max_readback_bytes) {
+      return Error{packet.offset, "reads back more than " + std::to_string(max_readback_bytes) + " bytes"};
+    }
+    return {};
+  }
+
+  Dump& dump_;
+  Checker commands_;
+  std::uint64_t readback_bytes_ = 0;
+};
 
 /// Words from a drawing command's end on are not wanted: how many of `words` are.
 class DrawingLimit {
@@ -162,6 +176,15 @@ class DrawingLimit {
   ot::CommandStream stream_;
 };
 
+/// Text as a packet holds it: four characters a word, the last one filled up with zeros.
+std::vector<std::uint32_t> words_of(std::string_view text) {
+  std::vector<std::uint32_t> words((text.size() + 3) / 4);
+  for (std::size_t n = 0; n < text.size(); ++n) {
+    words[n / 4] |= std::uint32_t{static_cast<unsigned char>(text[n])} << 8 * (n % 4);
+  }
+  return words;
+}
+
 void read_words(gpu::Gpu& gpu, std::uint32_t count, std::vector<std::uint32_t>* into) {
   // Without pixels to send every read gives the same latch.
   for (; count > 0 && ot::gpu_status::ReadyToSend::get(gpu.status()) != 0; --count) {
@@ -185,78 +208,185 @@ void Dump::add(PacketType type, std::span<const std::uint32_t> payload) {
   assert(is_port || payload.size() <= header::Length::max);
   do {
     const auto part = payload.first(std::min<std::size_t>(payload.size(), header::Length::max));
-    packets.push_back({.type = type, .first = words.size(), .count = part.size()});
+    packets.push_back({.type = type,
+                       .first = static_cast<std::uint32_t>(words.size()),
+                       .count = static_cast<std::uint32_t>(part.size())});
     words.insert(words.end(), part.begin(), part.end());
     payload = payload.subspan(part.size());
   } while (!payload.empty());
 }
 
-void Dump::add_text(PacketType type, std::string_view text) {
-  std::vector<std::uint32_t> payload((text.size() + 3) / 4);
-  for (std::size_t n = 0; n < text.size(); ++n) {
-    payload[n / 4] |= std::uint32_t{static_cast<unsigned char>(text[n])} << 8 * (n % 4);
+void Dump::add_text(PacketType type, std::string_view text) { add(type, words_of(text)); }
+
+std::uint64_t most_held_bytes(std::uint64_t file_bytes) {
+  return std::clamp(4 * std::min(file_bytes, max_unpacked_bytes), usual_held_bytes, max_unpacked_bytes);
+}
+
+struct DumpReader::State {
+  explicit State(std::uint64_t most) : most_held(most) {}
+
+  /// Whether enough of the beginning is there to tell what it is.
+  [[nodiscard]] bool take_magic(std::span<const std::byte>& bytes) {
+    while (!bytes.empty() && begin.size() < standard_magic.size()) {
+      begin.push_back(bytes.front());
+      bytes = bytes.subspan(1);
+      if (begins_with(begin, v1_magic)) {
+        dump.format = DumpFormat::v1;
+        has_magic = true;
+      } else if (begins_with(begin, standard_magic)) {
+        has_magic = true;
+      }
+      if (has_magic) {
+        at = begin.size();
+        return true;
+      }
+    }
+    if (begin.size() == standard_magic.size()) error = no_magic();
+    return false;
   }
-  add(type, payload);
+  [[nodiscard]] Error no_magic() const {
+    if (begins_with(begin, any_version)) {
+      return {any_version.size(), "a GPU dump of another version than v1r1 and v1"};
+    }
+    return {0, "not a GPU dump: it does not begin with PSXGPUDUMP"};
+  }
+
+  void header_word(std::uint32_t word) {
+    packet = {.type = static_cast<PacketType>(header::Type::get(word)),
+              .offset = static_cast<std::uint32_t>(at),
+              .first = static_cast<std::uint32_t>(dump.words.size()),
+              .count = header::Length::get(word)};
+    at += 4;
+    left = packet.count;
+    if (left == 0) end_packet();
+  }
+  void payload_word(std::uint32_t word) {
+    dump.words.push_back(word);
+    at += 4;
+    if (--left == 0) end_packet();
+  }
+  void end_packet() {
+    const bool is_port = packet.type == PacketType::port0 || packet.type == PacketType::port1;
+    if (packet.count == 0 && is_port) {
+      ++dump.empty_packets;
+      return;
+    }
+    dump.packets.push_back(packet);
+    error = checker.take(packet);
+    check_held();
+  }
+  void check_held() {
+    if (!error && static_cast<std::uint64_t>(dump.held_bytes()) > most_held) {
+      error = Error{packet.offset, "its words and packets take more than " + std::to_string(most_held) +
+                                       " bytes up to here, which is the limit"};
+    }
+  }
+  std::uint64_t most_held, at = 0;  // at: bytes of whole words seen
+  Dump dump;
+  PacketChecker checker{dump};
+  std::vector<std::byte> begin;  // until the magic is whole
+  bool has_magic = false;
+  std::array<std::byte, 4> partial{};  // bytes of a word whose rest has not come
+  std::size_t partial_count = 0;
+  Packet packet;
+  std::uint32_t left = 0;  // words of `packet` that have not come
+  std::optional<Error> error;
+};
+
+DumpReader::DumpReader(std::uint64_t most_held) : state_(std::make_unique<State>(most_held)) {}
+DumpReader::~DumpReader() = default;
+
+bool DumpReader::feed(std::span<const std::byte> bytes) {
+  State& s = *state_;
+  if (s.error) return false;
+  if (!s.has_magic && !s.take_magic(bytes)) return !s.error;
+  const auto take = [&s](std::uint32_t word) { s.left == 0 ? s.header_word(word) : s.payload_word(word); };
+  while (!bytes.empty() && !s.error) {
+    if (s.partial_count != 0 || bytes.size() < 4) {
+      s.partial[s.partial_count++] = bytes.front();
+      bytes = bytes.subspan(1);
+      if (s.partial_count < 4) continue;
+      s.partial_count = 0;
+      take(little_endian(s.partial.data()));
+      continue;
+    }
+    // A long packet is judged as it grows: its header may claim 64 MiB.
+    const auto whole = bytes.first(std::min<std::size_t>(bytes.size() / 4 * 4, std::size_t{1} << 20));
+    for (std::size_t n = 0; n < whole.size() && !s.error; n += 4) take(little_endian(&whole[n]));
+    bytes = bytes.subspan(whole.size());
+    s.check_held();
+  }
+  return !s.error;
+}
+
+Parsed<Dump> DumpReader::finish() {
+  State& s = *state_;
+  if (!s.error && !s.has_magic) s.error = s.no_magic();
+  if (!s.error && s.left == 0 && s.partial_count != 0) {
+    s.error = Error{s.at, std::to_string(s.partial_count) + " bytes are left, a packet header takes 4"};
+  }
+  if (!s.error && s.left != 0) {
+    s.error = Error{s.packet.offset, "packet of type " + hex_byte(static_cast<std::uint32_t>(s.packet.type)) +
+                                         " claims " + std::to_string(s.packet.count) + " words, " +
+                                         std::to_string(s.packet.count - s.left) + " are left"};
+  }
+  if (!s.error) s.error = s.checker.end();
+  if (s.error) return Parsed<Dump>::error(s.error->offset, s.error->text);
+  return {std::move(s.dump), {}, 0};
 }
 
 Parsed<Dump> parse_dump(std::span<const std::byte> bytes) {
-  using Result = Parsed<Dump>;
-  Dump dump;
-  std::size_t at = 0;
-  if (begins_with(bytes, standard_magic)) {
-    at = standard_magic.size();
-  } else if (begins_with(bytes, v1_magic)) {
-    dump.format = DumpFormat::v1;
-    at = v1_magic.size();
-  } else if (begins_with(bytes, any_version)) {
-    return Result::error(any_version.size(), "a GPU dump of another version than v1r1 and v1");
-  } else {
-    return Result::error(0, "not a GPU dump: it does not begin with PSXGPUDUMP");
-  }
-
-  dump.words.reserve((bytes.size() - at) / 4);
-  while (at < bytes.size()) {
-    const auto left = bytes.size() - at;
-    if (left < 4) return Result::error(at, std::to_string(left) + " bytes are left, a packet header takes 4");
-    const auto word = little_endian(&bytes[at]);
-    const std::size_t count = header::Length::get(word);
-    if (count > (left - 4) / 4) {
-      return Result::error(at, "packet of type " + hex_byte(header::Type::get(word)) + " claims " +
-                                   std::to_string(count) + " words, " + std::to_string((left - 4) / 4) +
-                                   " are left");
-    }
-    dump.packets.push_back({.type = static_cast<PacketType>(header::Type::get(word)),
-                            .offset = at,
-                            .first = dump.words.size(),
-                            .count = count});
-    at += 4;
-    for (std::size_t n = 0; n < count; ++n, at += 4) dump.words.push_back(little_endian(&bytes[at]));
-  }
-  return check(std::move(dump));
+  DumpReader reader(most_held_bytes(bytes.size()));
+  reader.feed(bytes);
+  return reader.finish();
 }
+
+DumpWriter::DumpWriter(DumpFormat format, Sink sink) : format_(format), sink_(std::move(sink)) {
+  const auto magic = format == DumpFormat::v1 ? v1_magic : standard_magic;
+  sink_(std::as_bytes(std::span(magic.data(), magic.size())));
+}
+
+void DumpWriter::add(PacketType type, std::span<const std::uint32_t> payload) {
+  do {
+    const auto part = payload.first(std::min<std::size_t>(payload.size(), header::Length::max));
+    bytes_.clear();
+    put_little_endian(bytes_, header::Type::put(static_cast<std::uint32_t>(type)) |
+                                  header::Length::put(static_cast<std::uint32_t>(part.size())));
+    const std::uint32_t less = type == PacketType::gpu_version && format_ == DumpFormat::v1 ? 1 : 0;
+    for (const auto word : part) put_little_endian(bytes_, word - less);
+    sink_(bytes_);
+    held_bytes_ += sizeof(Packet) + part.size() * sizeof(std::uint32_t);
+    words_ += part.size();
+    payload = payload.subspan(part.size());
+  } while (!payload.empty());
+}
+
+void DumpWriter::add_text(PacketType type, std::string_view text) { add(type, words_of(text)); }
 
 std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format) {
   std::vector<std::byte> out;
-  const auto magic = format == DumpFormat::v1 ? v1_magic : standard_magic;
-  out.reserve(magic.size() + 4 * (dump.words.size() + dump.packets.size()));
-  for (const char c : magic) out.push_back(static_cast<std::byte>(c));
+  out.reserve(standard_magic.size() + 4 * (dump.words.size() + dump.packets.size()));
+  DumpWriter writer(format, [&out](std::span<const std::byte> bytes) {
+    out.insert(out.end(), bytes.begin(), bytes.end());
+  });
   for (const auto& packet : dump.packets) {
-    put_little_endian(out, header::Type::put(static_cast<std::uint32_t>(packet.type)) |
-                               header::Length::put(static_cast<std::uint32_t>(packet.count)));
-    for (auto word : dump.payload(packet)) {
-      if (packet.type == PacketType::gpu_version)
-        word = dump.gpu_version - (format == DumpFormat::v1 ? 1 : 0);
-      put_little_endian(out, word);
+    if (packet.type == PacketType::gpu_version) {
+      writer.add(packet.type, std::span(&dump.gpu_version, 1));
+    } else {
+      writer.add(packet.type, dump.payload(packet));
     }
   }
   return out;
 }
 
 gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) {
+  constexpr std::size_t piece = 512;  // words between two questions whether to go on
   DrawingLimit limit(options.until);
   gpu::FrameEnd end;
-  std::uint64_t vsyncs = 0;
+  std::uint64_t vsyncs = 0, packets = 0;
   bool in_frame = false;  // z-buffer: from the first word after a VSync to the next VSync
+  bool goes_on = true;
+  const auto ask = [&](std::uint64_t words) { goes_on = !options.keep_going || options.keep_going(words); };
   const auto begin_frame = [&] {
     if (gpu.depth_plane() == nullptr || in_frame) return;
     gpu.begin_frame();
@@ -266,13 +396,22 @@ gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& optio
     if (in_frame) end = sum(end, gpu.end_frame());
     in_frame = false;
   };
-  for (const auto& packet : dump.packets) {
+  const auto end_packet = std::min(options.end_packet, dump.packets.size());
+  for (std::size_t n = options.first_packet; n < end_packet; ++n) {
+    const Packet& packet = dump.packets[n];
     const auto payload = dump.payload(packet);
     switch (packet.type) {
-      case PacketType::port0:
+      case PacketType::port0: {
         begin_frame();
-        gpu.gp0(limit.wanted(payload));
+        auto words = limit.wanted(payload);
+        for (std::uint64_t sent = packet.first; words.size() > piece && goes_on;
+             words = words.subspan(piece)) {
+          gpu.gp0(words.first(piece));
+          ask(sent += piece);
+        }
+        if (goes_on) gpu.gp0(words);
         break;
+      }
       case PacketType::port1:
         for (const auto word : payload) {
           gpu.gp1(word);
@@ -293,7 +432,8 @@ gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& optio
       default:
         break;
     }
-    if (limit.reached() || (options.frame && vsyncs >= *options.frame)) break;
+    if (goes_on && ++packets % 16 == 0) ask(packet.first + packet.count);
+    if (!goes_on || limit.reached() || (options.frame && vsyncs >= *options.frame)) break;
   }
   end_frame();
   return end;

@@ -9,6 +9,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -38,14 +40,15 @@ enum class PacketType : std::uint8_t {
 
 struct Packet {
   PacketType type = PacketType::port0;
-  std::uint64_t offset = 0;  ///< byte of the unpacked file where the packet begins; 0 when not read from one
-  std::size_t first = 0, count = 0;  ///< its words in Dump::words
+  std::uint32_t offset = 0;  ///< byte of the unpacked file where the packet begins; 0 when not read from one
+  std::uint32_t first = 0, count = 0;  ///< its words in Dump::words
 };
 
 struct Dump {
   DumpFormat format = DumpFormat::standard;
-  std::vector<Packet> packets;
+  std::vector<Packet> packets;       ///< those of the ports that are empty are not kept
   std::vector<std::uint32_t> words;  ///< payloads one behind the other
+  std::uint64_t empty_packets = 0;   ///< of the ports, left out of `packets`
   std::uint32_t gpu_version = 2;     ///< 1: the first chip; 2: the later one; 3: that with 2 MB of VRAM
   std::uint64_t vsyncs = 0;
   std::uint64_t drawing_commands = 0;  ///< polygon, line or polyline, rectangle, fill, copy, upload
@@ -54,15 +57,63 @@ struct Dump {
     return std::span(words).subspan(p.first, p.count);
   }
 
+  /// What it takes in memory, as most_held_bytes() counts.
+  [[nodiscard]] std::int64_t held_bytes() const {
+    return static_cast<std::int64_t>(words.size() * sizeof(std::uint32_t) + packets.size() * sizeof(Packet));
+  }
+
   /// Appends a packet, or several when port data is longer than one can be (2^24 - 1 words).
   void add(PacketType type, std::span<const std::uint32_t> payload = {});
   void add_text(PacketType type, std::string_view text);
 };
 
-/// Reads a plain dump (unpack() first) and checks it: every packet whole, every command complete at the end,
-/// read counts within VRAM. Counts VSyncs and drawing commands. Never reads beyond `bytes`, and needs memory
-/// in proportion to it alone.
+/// What a dump may take in memory, words and packets together, so that a few bytes cannot unpack to more than
+/// any machine has: 192 MiB, or four times its file, and never more than 1 GiB.
+std::uint64_t most_held_bytes(std::uint64_t file_bytes);
+
+/// Reads a plain dump, as its bytes come, and checks it: every packet whole, every command complete at the
+/// end, read counts within VRAM. Counts VSyncs and drawing commands. Memory: what the words and packets take
+/// that are kept, and that is bounded.
+class DumpReader {
+ public:
+  explicit DumpReader(std::uint64_t most_held = most_held_bytes(0));
+  ~DumpReader();
+  DumpReader(const DumpReader&) = delete;
+  DumpReader& operator=(const DumpReader&) = delete;
+
+  /// The next bytes, however many. False: something is wrong, and finish() tells what; no more is wanted.
+  bool feed(std::span<const std::byte> bytes);
+  /// The end of the file.
+  Parsed<Dump> finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// The whole of a plain dump that is in memory already.
 Parsed<Dump> parse_dump(std::span<const std::byte> bytes);
+
+/// Writes a dump as it is made: what is added goes to `sink` at once, the magic first.
+class DumpWriter {
+ public:
+  using Sink = std::function<void(std::span<const std::byte>)>;
+  DumpWriter(DumpFormat format, Sink sink);
+
+  /// A packet, or several when port data is longer than one can be (2^24 - 1 words). A packet of
+  /// PacketType::gpu_version counts as the standard format does, from 1.
+  void add(PacketType type, std::span<const std::uint32_t> payload = {});
+  void add_text(PacketType type, std::string_view text);
+  /// What whoever reads the dump will hold of it, as most_held_bytes() counts.
+  [[nodiscard]] std::uint64_t held_bytes() const { return held_bytes_; }
+  [[nodiscard]] std::uint64_t words() const { return words_; }
+
+ private:
+  DumpFormat format_;
+  Sink sink_;
+  std::vector<std::byte> bytes_;
+  std::uint64_t held_bytes_ = 0, words_ = 0;
+};
 
 /// The file that parse_dump reads back to the same packets.
 std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format);
@@ -71,6 +122,11 @@ struct ReplayOptions {
   std::optional<std::uint64_t> frame{};            ///< stop at this VSync packet, from 1
   std::optional<std::uint64_t> until{};            ///< stop after this drawing command, from 1
   std::vector<std::uint32_t>* readback = nullptr;  ///< words of readback packets are appended
+  /// Asked after every few packets and every few hundred words of a long one: false ends the replay there.
+  /// Told how many of the dump's words have been sent.
+  std::function<bool(std::uint64_t words)> keep_going{};
+  /// Only these packets; frames and commands are counted from the first of them.
+  std::size_t first_packet = 0, end_packet = static_cast<std::size_t>(-1);
 };
 
 /// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). In

@@ -20,28 +20,28 @@ std::string lower_extension(const std::filesystem::path& path) {
   return text;
 }
 
-dump::Compression compression_by_name(const std::filesystem::path& path) {
+Compression compression_by_name(const std::filesystem::path& path) {
   const auto extension = lower_extension(path);
-  if (extension == ".zst") return dump::Compression::zstd;
-  return extension == ".xz" ? dump::Compression::xz : dump::Compression::none;
+  if (extension == ".zst") return Compression::zstd;
+  return extension == ".xz" ? Compression::xz : Compression::none;
 }
 
 std::string packet_text(const dump::Dump& dump, const dump::Packet& packet, std::uint64_t vsyncs) {
   const auto payload = dump.payload(packet);
   switch (packet.type) {
-    case dump::PacketType::vsync:
+    case PacketType::vsync:
       return "vsync " + std::to_string(vsyncs);
-    case dump::PacketType::discard:
+    case PacketType::discard:
       return "discard " + std::to_string(payload[0]) + " words";
-    case dump::PacketType::readback:
+    case PacketType::readback:
       return "read back " + std::to_string(payload[0]) + " words";
-    case dump::PacketType::trace_begin:
+    case PacketType::trace_begin:
       return "trace begins";
-    case dump::PacketType::gpu_version:
+    case PacketType::gpu_version:
       return "GPU version " + std::to_string(dump.gpu_version);
-    case dump::PacketType::game_id:
-    case dump::PacketType::video_format:
-    case dump::PacketType::comment: {
+    case PacketType::game_id:
+    case PacketType::video_format:
+    case PacketType::comment: {
       std::string text;
       for (const auto word : payload) {
         for (int shift = 0; shift < 32; shift += 8) {
@@ -66,36 +66,53 @@ std::string line_of(std::uint64_t offset, const char* port, const std::string& d
 
 }  // namespace
 
-base::Result<dump::Dump> read_dump(const std::filesystem::path& path) {
-  const auto file = base::read_file(path, dump::max_unpacked_bytes);
-  if (!file) return tl::make_unexpected(file.error());
+base::Result<Dump> read_dump(const std::filesystem::path& path) {
   const auto fail = [&](std::uint64_t offset, const char* where, const std::string& text) {
     return base::fail(path.string() + ": byte " + std::to_string(offset) + where + ": " + text);
   };
-  if (dump::compression_of(*file) == dump::Compression::none) {
-    auto dump = dump::parse_dump(*file);
+  const auto file = base::read_file(path, max_unpacked_bytes);
+  if (!file) return tl::make_unexpected(file.error());
+  if (compression_of(*file) == Compression::none) {
+    auto dump = parse_dump(*file);
     if (!dump) return fail(dump.offset, "", dump.message);
     return std::move(*dump);
   }
-  auto plain = dump::unpack(*file);
-  if (!plain) return fail(plain.offset, "", plain.message);
-  auto dump = dump::parse_dump(*plain);
+  DumpReader reader(most_held_bytes(file->size()));
+  const auto unpacked =
+      unpack_to(*file, [&](std::span<const std::byte> bytes) { return reader.feed(bytes); });
+  if (!unpacked) return fail(unpacked.offset, "", unpacked.message);
+  auto dump = reader.finish();
   if (!dump) return fail(dump.offset, " of the unpacked dump", dump.message);
   return std::move(*dump);
 }
 
-base::Result<void> save_dump(const std::filesystem::path& path, const dump::Dump& dump,
-                             dump::DumpFormat format) {
-  return base::write_file(path, dump::pack(dump::write_dump(dump, format), compression_by_name(path)));
+base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat format,
+                              const std::function<base::Result<void>(DumpWriter&)>& make) {
+  std::uint64_t file_bytes = 0;
+  return base::write_file(path, [&](std::FILE* file) -> base::Result<void> {
+    Packer packer(compression_by_name(path), [&](std::span<const std::byte> bytes) {
+      std::fwrite(bytes.data(), 1, bytes.size(), file);
+      file_bytes += bytes.size();
+    });
+    DumpWriter writer(format, [&](std::span<const std::byte> bytes) { packer.add(bytes); });
+    if (auto made = make(writer); !made) return made;
+    packer.finish();
+    if (const auto most = most_held_bytes(file_bytes); writer.held_bytes() > most) {
+      return base::fail(path.string() + ": the dump would take " + std::to_string(writer.held_bytes()) +
+                        " bytes of memory to be read, the limit is " + std::to_string(most) +
+                        "; fewer frames fit");
+    }
+    return {};
+  });
 }
 
-void list_dump(const dump::Dump& dump, const dump::ReplayOptions& options,
+void list_dump(const Dump& dump, const ReplayOptions& options,
                const std::function<void(const std::string&)>& line) {
   ot::CommandStream stream;
   std::uint64_t draws = 0, vsyncs = 0, begin = 0;
   for (const auto& packet : dump.packets) {
     const auto payload = dump.payload(packet);
-    if (packet.type == dump::PacketType::port0) {
+    if (packet.type == PacketType::port0) {
       for (std::size_t n = 0; n < payload.size(); ++n) {
         n += stream.skip_pixels(payload.size() - n);
         if (n == payload.size()) break;
@@ -107,14 +124,14 @@ void list_dump(const dump::Dump& dump, const dump::ReplayOptions& options,
                      ot::gp0::Opcode::get(stream.words()[0]), ot::describe(stream.words(), stream.length())));
         if (draws_now && options.until && draws == *options.until) return;
       }
-    } else if (packet.type == dump::PacketType::port1) {
+    } else if (packet.type == PacketType::port1) {
       for (std::size_t n = 0; n < payload.size(); ++n) {
         line(line_of(packet.offset + 4 + 4 * n, "GP1", "-", ot::gp0::Opcode::get(payload[n]),
                      ot::describe_control(payload[n])));
         if (ot::gp1::aborts_command(payload[n])) stream.abort();
       }
     } else {
-      if (packet.type == dump::PacketType::vsync) ++vsyncs;
+      if (packet.type == PacketType::vsync) ++vsyncs;
       line(line_of(packet.offset, "-", "-", static_cast<std::uint32_t>(packet.type),
                    packet_text(dump, packet, vsyncs)));
       if (options.frame && vsyncs == *options.frame) return;

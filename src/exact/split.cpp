@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <functional>
+#include <optional>
 #include <unordered_set>
 #include <utility>
 
@@ -25,6 +27,10 @@ class Depths {
     return planes_[a].has_corners_of(planes_[b]);
   }
 
+  [[nodiscard]] double nearness(std::uint32_t triangle, int x, int y) const {
+    return planes_[triangle].estimate(x, y).value;
+  }
+
   DecisionCounts counts;
 
  private:
@@ -36,7 +42,8 @@ class EdgeFinder {
  public:
   EdgeFinder(std::span<const Piece> pieces, Depths& depths) : pieces_(pieces), depths_(depths) {}
 
-  std::vector<Edge> find() {
+  /// Nothing if `keep_going` says so.
+  std::optional<std::vector<Edge>> find(const std::function<bool()>& keep_going) {
     int top = 0, bottom = 0;
     for (const Piece& piece : pieces_) {
       top = std::min(top, piece.rows.top);
@@ -50,6 +57,7 @@ class EdgeFinder {
     }
     std::vector<std::uint32_t> live;
     for (int y = top; y < bottom; ++y) {
+      if (!keep_going()) return std::nullopt;
       const auto& fresh = starting[static_cast<std::size_t>(y - top)];
       std::erase_if(live, [&](std::uint32_t p) { return pieces_[p].rows.bottom() <= y; });
       live.insert(live.end(), fresh.begin(), fresh.end());
@@ -136,13 +144,16 @@ enum class Side : std::uint8_t { behind, in_front, both };
 
 class Splitter {
  public:
-  Splitter(std::span<const Triangle> triangles, const Area& area) : depths_(triangles) {
+  Splitter(std::span<const Triangle> triangles, const Area& area, const SplitLimits& limits)
+      : depths_(triangles), limits_(limits) {
     std::vector<Piece> all;
     for (std::uint32_t t = 0; t < triangles.size(); ++t) {
       if (!depths_.has_plane(t)) continue;
       Piece piece{t, true, covered_rows(triangles[t], area)};
       if (!piece.rows.spans.empty()) all.push_back(std::move(piece));
     }
+    for (const Piece& piece : all) spans_ += piece.rows.spans.size();
+    known_ = all.size();
     work_.push_back({std::move(all), false});
   }
 
@@ -150,7 +161,8 @@ class Splitter {
     while (!work_.empty()) {
       Set set = std::move(work_.back());
       work_.pop_back();
-      if (set.is_ordered || set.pieces.size() == 1) {
+      if (!goes_on()) by_one_depth(set.pieces);
+      if (set.is_ordered || set.pieces.size() == 1 || is_over()) {
         for (Piece& piece : set.pieces) result_.pieces.push_back(std::move(piece));
       } else if (set.is_cycle) {
         divide(std::move(set.pieces));
@@ -168,10 +180,33 @@ class Splitter {
     bool is_ordered = false, is_cycle = false;
   };
 
+  [[nodiscard]] bool is_over() const { return result_.was_stopped || result_.was_too_much; }
+  bool goes_on() {
+    if (is_over()) return false;
+    result_.was_too_much = spans_ > limits_.most_spans;
+    const auto done =
+        static_cast<double>(result_.pieces.size()) / static_cast<double>(std::max<std::size_t>(known_, 1));
+    result_.was_stopped = limits_.keep_going && !limits_.keep_going(done);
+    return !is_over();
+  }
+  // Far to near by the depth in the middle of the first row.
+  void by_one_depth(std::vector<Piece>& pieces) {
+    const auto nearness = [&](const Piece& p) {
+      if (p.rows.spans.empty()) return 0.0;
+      return depths_.nearness(p.triangle, (p.rows.spans[0].left + p.rows.spans[0].right) / 2, p.rows.top);
+    };
+    std::stable_sort(pieces.begin(), pieces.end(),
+                     [&](const Piece& a, const Piece& b) { return nearness(a) < nearness(b); });
+  }
+
   // The last pushed is drawn first.
   void order(std::vector<Piece> pieces) {
-    const auto edges = EdgeFinder(pieces, depths_).find();
-    const auto components = components_in_order(static_cast<std::uint32_t>(pieces.size()), edges);
+    const auto edges = EdgeFinder(pieces, depths_).find([this] { return goes_on(); });
+    if (!edges) {
+      work_.push_back({std::move(pieces), true});
+      return;
+    }
+    const auto components = components_in_order(static_cast<std::uint32_t>(pieces.size()), *edges);
     for (auto component = components.rbegin(); component != components.rend(); ++component) {
       Set set;
       for (const std::uint32_t p : *component) set.pieces.push_back(std::move(pieces[p]));
@@ -200,6 +235,8 @@ class Splitter {
           behind.pieces.push_back(std::move(far));
           in_front.pieces.push_back(std::move(near));
           ++result_.splits;
+          ++known_;
+          spans_ += behind.pieces.back().rows.spans.size() + in_front.pieces.back().rows.spans.size();
       }
     }
     work_.push_back(std::move(in_front));
@@ -274,14 +311,17 @@ class Splitter {
   }
 
   Depths depths_;
-  std::vector<Set> work_;  // the last is drawn first
+  const SplitLimits& limits_;
+  std::size_t known_ = 0, spans_ = 0;  // pieces, and their spans
+  std::vector<Set> work_;              // the last is drawn first
   SplitOrder result_;
 };
 
 }  // namespace
 
-SplitOrder split_into_order(std::span<const Triangle> triangles, const Area& area) {
-  return Splitter(triangles, area).run();
+SplitOrder split_into_order(std::span<const Triangle> triangles, const Area& area,
+                            const SplitLimits& limits) {
+  return Splitter(triangles, area, limits).run();
 }
 
 }  // namespace exact

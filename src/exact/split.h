@@ -13,7 +13,9 @@
 //
 // Not modelled: samples other than pixel centres of the raster handed in.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,10 +37,21 @@ struct SplitOrder {
   std::uint32_t splits = 0;   ///< cuts made: pieces less triangles with pixels
   std::uint32_t cycles = 0;   ///< components of more than one piece met on the way
   DecisionCounts decisions;
+  /// Of two kinds of haste, both only when asked for: the rest is in the order of one depth a piece.
+  bool was_stopped = false;   ///< keep_going said so
+  bool was_too_much = false;  ///< most_spans was passed
+};
+
+/// How long a split may take. Triangles that all pierce each other have as many pieces as pixels times
+/// layers.
+struct SplitLimits {
+  std::function<bool(double done)> keep_going{};  ///< asked often; done: 0..1 of the pieces known so far
+  std::size_t most_spans = 6'000'000;             ///< of all pieces together
 };
 
 /// Orders the pixels of `triangles` inside `area`, splitting where it must. Corners within corner_limit;
 /// triangles that break the hardware's size rule are the caller's to leave out.
-SplitOrder split_into_order(std::span<const Triangle> triangles, const Area& area);
+SplitOrder split_into_order(std::span<const Triangle> triangles, const Area& area,
+                            const SplitLimits& limits = {});
 
 }  // namespace exact

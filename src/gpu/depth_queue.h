@@ -21,7 +21,12 @@ class DepthQueue {
     std::uint32_t draw = 0;      ///< number in the trace
   };
 
+  /// A frame of more is drawn in groups of so many, each far to near, so that no stream takes more memory
+  /// than a large scene does. [ours]
+  static constexpr std::size_t most = std::size_t{1} << 19;
+
   [[nodiscard]] bool is_empty() const { return entries_.empty(); }
+  [[nodiscard]] bool is_full() const { return entries_.size() >= most || palettes_.size() >= most / 4; }
   void add(const Primitive& primitive, const ClutCache& clut, std::uint32_t draw);
   /// Far to near; equal ones in list order. [ours]
   void sort();
@@ -29,6 +34,10 @@ class DepthQueue {
   [[nodiscard]] std::vector<Entry>& entries() { return entries_; }
   [[nodiscard]] const std::uint16_t* palette(const Entry& entry) const {
     return palettes_[entry.palette].data();
+  }
+  /// The trace that gave them their numbers is gone.
+  void forget_draws() {
+    for (Entry& entry : entries_) entry.draw = no_draw;
   }
   /// Keeps the memory for the next frame.
   void clear();

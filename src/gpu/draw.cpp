@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "gpu/canvas/canvas.h"
+#include "gpu/depth_queue.h"
 #include "gpu/gpu.h"
 #include "gpu/raster.h"
 #include "ot/gp0.h"
@@ -210,7 +211,7 @@ void Gpu::begin_upload(const std::uint32_t* words) {
              .y = p.vertices[0].y,
              .width = p.width,
              .height = p.height,
-             .draw = current_draw()};
+             .draw = current_draw_};
 }
 
 void Gpu::begin_download(const std::uint32_t* words) {
@@ -226,11 +227,11 @@ void Gpu::begin_download(const std::uint32_t* words) {
 
 /// The words are a stream of halfwords; only the last of an odd number is not a pixel.
 const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* end) {
-  // A frame, and its trace, may begin anew while an upload is open: the rest is then the first draw of the
-  // new one.
-  if (trace_ != nullptr && trace_->draws.size() <= upload_.draw) {
-    trace_->draws.push_back(current_);
-    upload_.draw = current_draw();
+  // A frame, and its trace, may begin anew while an upload is open: the rest is then a draw of the new one.
+  follow_trace();
+  if (trace_ != nullptr && upload_.draw == no_draw) {
+    current_.bucket = trace_->bucket;
+    upload_.draw = current_draw_ = trace_->enter(current_);
   }
   Surface target = surface();
   target.draw = upload_.draw;
@@ -285,9 +286,19 @@ void Gpu::note(Kind kind) {
   ++counters_.primitives[static_cast<std::size_t>(kind)];
   if (!is_noted_) return;
   if (pixel_counts_ != nullptr) pixel_counts_->add(current_);
+  follow_trace();
   if (trace_ == nullptr) return;
   current_.bucket = trace_->bucket;
-  trace_->draws.push_back(current_);
+  current_draw_ = trace_->enter(current_);
+}
+
+/// Draw numbers kept from another trace, or from before it began anew, are forgotten.
+void Gpu::follow_trace() {
+  const std::uint64_t beginning = trace_ == nullptr ? 0 : trace_->beginnings();
+  if (trace_ == nullptr || beginning == trace_beginning_) return;
+  trace_beginning_ = beginning;
+  current_draw_ = upload_.draw = no_draw;
+  if (queue_) queue_->forget_draws();
 }
 
 Surface Gpu::surface() {
@@ -296,13 +307,8 @@ Surface Gpu::surface() {
           .counters = counters_,
           .depth = depth_.get(),
           .trace = trace_,
-          .draw = current_draw(),
+          .draw = current_draw_,
           .limits = limits_ ? &*limits_ : nullptr};
-}
-
-/// The number under which the trace knows the primitive last noted.
-std::uint32_t Gpu::current_draw() const {
-  return trace_ == nullptr ? 0 : static_cast<std::uint32_t>(trace_->draws.size() - 1);
 }
 
 }  // namespace gpu

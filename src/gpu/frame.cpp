@@ -41,19 +41,22 @@ void Gpu::draw_with_depth() {
   if (!p.is_semi_transparent() || p.is_textured()) draw_either(surface(), p, Pass::opaque);
   if (!p.is_semi_transparent()) return;
   if (!queue_) queue_ = std::make_unique<DepthQueue>();
-  queue_->add(p, clut_, current_draw());
+  queue_->add(p, clut_, current_draw_);
   ++frame_.queued;
+  if (queue_->is_full()) draw_queue();
 }
 
 /// Also before a fill, a copy or an upload: they would change what the queued
 /// polygons lie on, or their texture.
 void Gpu::draw_queue() {
   if (!queue_ || queue_->is_empty()) return;
+  follow_trace();
   queue_->sort();
   for (const DepthQueue::Entry& entry : queue_->entries()) {
     Surface target = surface();
     target.clut = queue_->palette(entry);
     target.draw = entry.draw;
+    if (trace_ != nullptr && entry.draw == no_draw) target.draw = trace_->enter(entry.primitive);
     draw_either(target, entry.primitive, Pass::semi_transparent);
   }
   queue_->clear();
@@ -75,7 +78,8 @@ void Gpu::set_trace(Trace* trace) {
   trace_ = trace;
   is_noted_ = trace_ != nullptr || pixel_counts_ != nullptr;
   if (!begins) return;
-  upload_.draw = no_draw;
+  trace_beginning_ = trace_->beginnings();
+  current_draw_ = upload_.draw = no_draw;
   note_queue();
 }
 
@@ -88,8 +92,7 @@ void Gpu::set_pixel_counts(PixelCounts* counts) {
 void Gpu::note_queue() {
   if (!queue_ || trace_ == nullptr) return;
   for (DepthQueue::Entry& entry : queue_->entries()) {
-    entry.draw = static_cast<std::uint32_t>(trace_->draws.size());
-    trace_->draws.push_back(entry.primitive);
+    entry.draw = trace_->enter(entry.primitive);
   }
 }
 

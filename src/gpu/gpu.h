@@ -128,8 +128,8 @@ class Gpu {
 
   // --- watching ---
 
-  /// nullptr: nobody watches and nothing is paid. Polygons that wait in the queue are the first draws of a
-  /// trace that begins.
+  /// nullptr: nobody watches and nothing is paid. May change, or begin anew, in the middle of a command.
+  /// Polygons that wait in the queue are the first draws of a trace that is set.
   void set_trace(Trace* trace);
   [[nodiscard]] Trace* trace() const { return trace_; }
   /// nullptr: nobody counts and nothing is paid. The caller owns it and keeps it alive.
@@ -173,8 +173,8 @@ class Gpu {
   void take_depth();
   void begin_command();
   void note(Kind kind);
+  void follow_trace();
   [[nodiscard]] Surface surface();
-  [[nodiscard]] std::uint32_t current_draw() const;
   // canvas/port.cpp
   [[nodiscard]] bool draw_on_canvas(const Surface& surface, const Primitive& primitive, Pass pass);
   void transfer_to_canvas();
@@ -220,7 +220,9 @@ class Gpu {
   FrameEnd frame_;
   Trace* trace_ = nullptr;
   PixelCounts* pixel_counts_ = nullptr;
-  bool is_noted_ = false;  // there is a trace or somebody counts: one test a primitive
+  bool is_noted_ = false;              // there is a trace or somebody counts: one test a primitive
+  std::uint64_t trace_beginning_ = 0;  // Trace::beginnings() when the draw numbers kept here were given
+  std::uint32_t current_draw_ = 0;     // number of the primitive last noted
   std::unique_ptr<canvas::Canvas> canvas_;
   Counters counters_;
 };

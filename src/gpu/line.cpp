@@ -147,11 +147,11 @@ constexpr auto line_kernels = []<std::size_t... I>(std::index_sequence<I...>) {
 }  // namespace
 
 std::uint64_t line_pixels(const Primitive& primitive) {
-  auto path = line_path(primitive);
-  if (!path) return 0;
+  LinePath path;
+  if (!put_line_path(path, primitive)) return 0;
   std::uint64_t pixels = 0;
-  for (int i = 0; i <= path->steps; ++i, path->x += path->step_x, path->y += path->step_y) {
-    const int column = static_cast<int>(path->x >> 32) & 2047, row = static_cast<int>(path->y >> 32) & 2047;
+  for (int i = 0; i <= path.steps; ++i, path.x += path.step_x, path.y += path.step_y) {
+    const int column = static_cast<int>(path.x >> 32) & 2047, row = static_cast<int>(path.y >> 32) & 2047;
     pixels += is_inside(primitive.state, column, row) ? 1 : 0;
   }
   return pixels;

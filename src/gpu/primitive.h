@@ -18,6 +18,7 @@ struct Vertex {
 };
 
 inline constexpr std::uint32_t no_bucket = 0xffffffff;
+inline constexpr std::uint32_t no_draw = 0xffffffff;  ///< the trace at hand does not know it
 
 enum class Kind : std::uint8_t { polygon, rectangle, line, fill, copy, upload };
 inline constexpr int kind_count = 6;

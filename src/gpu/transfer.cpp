@@ -29,6 +29,11 @@ void store_carefully(const Surface& surface, const DrawState& state, std::size_t
                      const std::uint16_t* pixels, int count) {
   const Watch watch{surface.trace, surface.draw, 0};
   std::uint16_t* to = surface.vram.pixels().data() + place;
+  if (state.mask == 0 && surface.trace != nullptr && !surface.trace->keep_history) {
+    std::copy_n(pixels, count, to);
+    watch.note_row(static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(count));
+    return;
+  }
   for (int i = 0; i < count; ++i, ++to, ++place) {
     if ((*to & state.mask_test()) != 0) continue;
     const auto pixel = static_cast<std::uint16_t>(pixels[i] | state.mask_set());

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "gpu/primitive.h"
+#include "gpu/state.h"
 #include "gpu/vram.h"
 
 namespace gpu {
@@ -14,8 +15,8 @@ namespace gpu {
 /// A rectangle that words go into or come out of, row by row; both coordinates wrap.
 struct Transfer {
   int x = 0, y = 0, width = 0, height = 0;
-  int column = 0, row = 0;  ///< the next pixel
-  std::uint32_t draw = 0;   ///< number in the trace
+  int column = 0, row = 0;       ///< the next pixel
+  std::uint32_t draw = no_draw;  ///< number in the trace
 
   [[nodiscard]] bool is_active() const { return row < height; }
   [[nodiscard]] std::int64_t pixels_left() const { return std::int64_t{height - row} * width - column; }

@@ -34,6 +34,11 @@ class Surfaces {
   /// The fragment's depth in view-space units, for people; not exact.
   [[nodiscard]] double depth(const Fragment& fragment, std::uint32_t pixel) const;
 
+  /// The fragment's surface begins in the pixel's column: left of it lies the end of one that wraps.
+  [[nodiscard]] bool begins_at(const Fragment& fragment, std::uint32_t pixel) const {
+    return ((static_cast<int>(pixel) - of(fragment).left) & (gpu::Vram::width - 1)) == 0;
+  }
+
   exact::DecisionCounts decisions;
 
  private:
@@ -61,6 +66,12 @@ class Fragments {
     return std::span(fragments_).subspan(first_[pixel], first_[pixel + 1] - first_[pixel]);
   }
   [[nodiscard]] std::size_t size() const { return fragments_.size(); }
+  /// All of them are numbered, pixel after pixel.
+  [[nodiscard]] const Fragment& operator[](std::uint32_t number) const { return fragments_[number]; }
+  /// The number of the first one of a pixel.
+  [[nodiscard]] std::uint32_t first(std::uint32_t pixel) const {
+    return static_cast<std::uint32_t>(first_[pixel]);
+  }
 
  private:
   std::vector<std::size_t> first_;  // pixel -> its first fragment; one more at the end

@@ -206,13 +206,9 @@ std::vector<LintItem> lint_buckets(const BucketFaults& faults, std::uint32_t len
 }
 
 std::vector<LintItem> lint_draws(const gpu::Trace& trace) {
-  std::vector<bool> wrote(trace.draws.size());
-  for (const gpu::Event& event : trace.history) {
-    if (!event.rejected) wrote[event.draw] = true;
-  }
   std::array<std::uint32_t, unseen_texts.size()> counts{}, first{};
   for (std::uint32_t draw = 0; draw < trace.draws.size(); ++draw) {
-    if (wrote[draw] || trace.draws[draw].kind != gpu::Kind::polygon) continue;
+    if (trace.written[draw] != 0 || trace.draws[draw].kind != gpu::Kind::polygon) continue;
     const auto reason = static_cast<std::size_t>(why_unseen(trace.draws[draw]));
     if (counts[reason]++ == 0) first[reason] = draw;
   }

@@ -1,13 +1,14 @@
 #include "load/faces.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <numeric>
-#include <unordered_map>
 
+#include "load/distinct.h"
 #include "scene/angle.h"
 
 namespace load {
@@ -75,18 +76,23 @@ bool holds(const dvec2& a, const dvec2& b, const dvec2& c, const dvec2& p) {
 }
 
 void cut_ears(const std::vector<dvec2>& p, std::uint64_t& work, std::vector<Piece>& pieces) {
-  std::vector<std::uint32_t> left(p.size());
-  std::iota(left.begin(), left.end(), 0U);
-  std::size_t at = 0, misses = 0;
-  while (left.size() > 3) {
-    const std::size_t n = left.size();
-    const std::uint32_t a = left[(at + n - 1) % n], b = left[at % n], c = left[(at + 1) % n];
-    const bool stuck = misses > n || work < n;  // self-crossing, or too dear: any corner will do
+  // What is left is a ring: taking a corner out costs nothing.
+  const auto count = static_cast<std::uint32_t>(p.size());
+  std::vector<std::uint32_t> before(count), after(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    before[i] = (i + count - 1) % count;
+    after[i] = (i + 1) % count;
+  }
+  std::uint32_t b = 0;
+  std::size_t left = count, misses = 0;
+  while (left > 3) {
+    const std::uint32_t a = before[b], c = after[b];
+    const bool stuck = misses > left || work < left;  // self-crossing, or too dear: any corner will do
     bool is_ear = stuck || turn(p[a], p[b], p[c]) > 0;
     if (is_ear && !stuck) {
-      work -= n;
-      for (const std::uint32_t q : left) {
-        if (q == a || q == b || q == c || p[q] == p[a] || p[q] == p[b] || p[q] == p[c]) continue;
+      work -= left;
+      for (std::uint32_t q = after[c]; q != a; q = after[q]) {
+        if (p[q] == p[a] || p[q] == p[b] || p[q] == p[c]) continue;
         if (holds(p[a], p[b], p[c], p[q])) {
           is_ear = false;
           break;
@@ -95,36 +101,34 @@ void cut_ears(const std::vector<dvec2>& p, std::uint64_t& work, std::vector<Piec
     }
     if (is_ear) {
       pieces.push_back({a, b, c, none});
-      left.erase(left.begin() + static_cast<std::ptrdiff_t>(at % n));
+      after[a] = c;
+      before[c] = a;
+      --left;
       misses = 0;
-      at %= left.size();
     } else {
       if (work > 0) --work;
       ++misses;
-      at = (at + 1) % n;
     }
+    b = c;
   }
-  pieces.push_back({left[0], left[1], left[2], none});
+  const std::array<std::uint32_t, 3> last{before[b], b, after[b]};
+  const auto least = std::min_element(last.begin(), last.end()) - last.begin();
+  const auto at = [&](std::ptrdiff_t i) { return last[static_cast<std::size_t>((least + i) % 3)]; };
+  pieces.push_back({at(0), at(1), at(2), none});
 }
 
 // Positions by value: the number of the first position with the same coordinates.
 std::vector<std::uint32_t> weld(const std::vector<glm::vec3>& positions) {
-  struct Hash {
-    std::size_t operator()(const glm::vec3& p) const {
-      std::uint64_t h = 0;
-      for (int i = 0; i < 3; ++i) {
-        h = (h ^ std::bit_cast<std::uint32_t>(p[i] + 0.0F)) * 0x9e3779b97f4a7c15U;  // + 0: no -0
-        h ^= h >> 32U;
-      }
-      return h;
-    }
-  };
-  std::unordered_map<glm::vec3, std::uint32_t, Hash> first;
-  first.reserve(positions.size());
-  std::vector<std::uint32_t> same(positions.size());
-  for (std::uint32_t i = 0; i < positions.size(); ++i)
-    same[i] = first.try_emplace(positions[i], i).first->second;
-  return same;
+  std::vector<std::array<std::uint32_t, 3>> keys;
+  keys.reserve(positions.size());
+  for (const glm::vec3& p : positions) {
+    const auto bits = [](float v) { return std::bit_cast<std::uint32_t>(v + 0.0F); };  // + 0: no -0
+    keys.push_back({bits(p.x), bits(p.y), bits(p.z)});
+  }
+  const Distinct same = number_distinct(keys);
+  std::vector<std::uint32_t> first(positions.size());
+  for (std::size_t i = 0; i < first.size(); ++i) first[i] = same.first[same.number[i]];
+  return first;
 }
 
 struct Forest {  // union-find: which positions hang together

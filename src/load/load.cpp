@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/file_kind.h"
+#include "base/message.h"
 #include "base/read_file.h"
 
 namespace load {
@@ -29,15 +30,20 @@ bool is_inside(const fs::path& folder, const fs::path& file) {
 base::Result<fs::path> inside(const fs::path& folder, const fs::path& relative) {
   std::error_code fault;
   const fs::path home = fs::canonical(folder, fault);
-  if (fault) return base::fail("its folder cannot be read");
+  if (fault) return base::fail("its folder cannot be read: " + fault.message());
   const fs::path file = fs::canonical(home / relative, fault);
-  if (fault) return base::fail("there is no such file");
+  if (fault == std::errc::no_such_file_or_directory) return base::fail("there is no such file");
+  if (fault) return base::fail("it cannot be read: " + fault.message());
   if (!is_inside(home, file)) return base::fail("it lies outside the folder of the scene");
   if (!fs::is_regular_file(file, fault)) return base::fail("it is not a regular file");
   return file;
 }
 
 }  // namespace
+
+void LoadedScene::warn(std::string text) {
+  if (warnings.size() < base::most_warnings) warnings.push_back(std::move(text));
+}
 
 base::Result<fs::path> resolve(const fs::path& folder, std::string_view reference) {
   std::string text(reference);

@@ -31,12 +31,16 @@ inline constexpr std::size_t materials = 4'096;
 inline constexpr int depth = 128;                            ///< nested X3D groups
 inline constexpr double coordinate = 1e9;                    ///< largest magnitude of any number
 inline constexpr int picture_side = 8'192;                   ///< width and height of a texture file
-inline constexpr std::size_t texels = std::size_t{1} << 26;  ///< of all textures of one scene
+inline constexpr std::size_t texels = std::size_t{1} << 24;  ///< kept of all textures of one scene
 }  // namespace limits
 
 struct LoadedScene {
   Scene scene;
-  std::vector<std::string> warnings;  ///< one sentence each, every unsupported thing once, file named
+  std::vector<std::string> warnings;         ///< one sentence each, every unsupported thing once, file named
+  std::vector<std::filesystem::path> files;  ///< read beside the scene file itself: pictures, materials
+
+  /// At most base::most_warnings are kept.
+  void warn(std::string text);
 };
 
 /// Where bytes came from: the name errors are reported under, and the folder outside which nothing is read.

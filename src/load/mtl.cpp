@@ -1,9 +1,13 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <sstream>
+#include <string_view>
 
 #include "load/obj.h"
 #include "load/pictures.h"
+#include "load/text.h"
 
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
@@ -48,17 +52,45 @@ ObjMaterial convert(const tinyobj::material_t& from, Pictures& pictures) {
 
 }  // namespace
 
-void parse_mtl(const std::string& bytes, Pictures& pictures,
-               std::map<std::string, ObjMaterial, std::less<>>& materials) {
+namespace {
+
+// The lines that a material is made of, so that one of millions takes no memory for the others.
+constexpr std::array<std::string_view, 6> keys{"Kd", "Ke", "d", "Tr", "illum", "map_Kd"};
+
+void take_material(const std::string& lines, Pictures& pictures,
+                   std::map<std::string, ObjMaterial, std::less<>>& materials) {
   std::map<std::string, int> index;
   std::vector<tinyobj::material_t> read;
   std::string warning, error;
-  std::istringstream in(bytes);
+  std::istringstream in(lines);
   tinyobj::LoadMtl(&index, &read, &in, &warning, &error);
   for (const tinyobj::material_t& material : read) {
-    if (materials.size() >= limits::materials) return;
     if (!materials.contains(material.name)) materials.emplace(material.name, convert(material, pictures));
   }
+}
+
+}  // namespace
+
+void parse_mtl(std::string_view bytes, Pictures& pictures,
+               std::map<std::string, ObjMaterial, std::less<>>& materials) {
+  constexpr std::string_view blank = " \t\r";
+  std::set<std::string_view> names;
+  std::string lines;  // of the material being read; empty: of one that is not wanted
+  while (!bytes.empty() && materials.size() < limits::materials) {
+    const std::size_t end = std::min(bytes.find_first_of("\r\n"), bytes.size());
+    const std::string_view line = bytes.substr(0, end);
+    bytes.remove_prefix(std::min(end + 1, bytes.size()));
+    std::string_view rest = line;
+    const std::string_view key = next_token(rest, blank);
+    if (key == "newmtl") {
+      if (!lines.empty()) take_material(lines, pictures, materials);
+      lines.clear();
+      if (names.insert(rest).second) lines.append(line).append("\n");
+    } else if (!lines.empty() && std::find(keys.begin(), keys.end(), key) != keys.end()) {
+      lines.append(line).append("\n");
+    }
+  }
+  if (!lines.empty() && materials.size() < limits::materials) take_material(lines, pictures, materials);
 }
 
 }  // namespace load

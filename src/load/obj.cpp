@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <set>
-#include <unordered_map>
 
 #include "base/read_file.h"
+#include "load/distinct.h"
 #include "load/faces.h"
 #include "load/pictures.h"
 #include "load/text.h"
@@ -28,7 +28,7 @@ struct Corner {
 class Reader {
  public:
   Reader(std::string_view bytes, const Source& source, LoadedScene& out)
-      : rest_(bytes), source_(source), out_(out), pictures_(source, out.scene.world, out.warnings) {
+      : rest_(bytes), source_(source), out_(out), pictures_(source, out) {
     world().materials.clear();
     materials_of_names_[""] = use({.material = {.lit = true}});
   }
@@ -301,16 +301,17 @@ class Reader {
 
   base::Result<void> library(std::string_view line) {
     const std::string_view name = rest_of(line);
-    if (!libraries_.insert(std::string(name)).second) return {};
-    if (libraries_.size() > 64) return base::fail("more than the limit of 64 material libraries");
-    auto bytes = resolve(source_.folder, name).and_then([](const auto& file) {
-      return base::read_regular_file(file, limits::mtl_bytes);
-    });
+    if (++libraries_named_ > 64) return base::fail("more than the limit of 64 material libraries");
+    const auto file = resolve(source_.folder, name);
+    if (file && !libraries_.insert(file->string()).second) return {};  // read already, by whatever name
+    auto bytes = file ? base::read_regular_file(*file, limits::mtl_bytes) : tl::make_unexpected(file.error());
     if (!bytes) {
       any_missing_library_ = true;
-      warn("material library " + in_quotes(name) + " cannot be read; its materials are drawn grey");
+      warn("material library " + in_quotes(name) + " cannot be read (" + bytes.error().text +
+           "); its materials are drawn grey");
       return {};
     }
+    out_.files.push_back(*file);
     parse_mtl(*bytes, pictures_, library_);
     return {};
   }
@@ -338,26 +339,30 @@ class Reader {
                       });
                     }) &&
         !mesh_.faces.empty();
-    std::unordered_map<std::uint64_t, std::uint32_t> known;
-    known.reserve(positions_.size());
-    const auto vertex = [&](std::uint32_t at) {
-      const Corner& c = corners_[at];
-      const std::uint64_t key = std::uint64_t{has_normals ? c.normal : none} << 32U | c.position;
-      const auto [entry, is_new] = known.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
-      if (is_new) {
-        mesh_.positions.push_back(positions_[c.position]);
-        if (has_normals) mesh_.normals.push_back(c.normal == none ? glm::vec3(0, 1, 0) : normals_[c.normal]);
+    std::vector<std::uint64_t> keys;
+    keys.reserve(corners_.size());
+    const auto each_vertex = [&](auto&& visit) {
+      for (Face& f : mesh_.faces) {
+        for (std::uint32_t& v : f.vertex) {
+          if (v != none) visit(v);
+        }
       }
-      return entry->second;
+      for (Line& l : mesh_.lines) std::for_each(l.vertex.begin(), l.vertex.end(), visit);
     };
-    for (Face& f : mesh_.faces) {
-      for (std::uint32_t& v : f.vertex) {
-        if (v != none) v = vertex(v);
-      }
+    each_vertex([&](std::uint32_t& v) {
+      const Corner& c = corners_[v];
+      keys.push_back(std::uint64_t{has_normals ? c.normal : none} << 32U | c.position);
+    });
+    const Distinct vertices = number_distinct(keys);
+    for (const std::uint32_t key : vertices.first) {
+      const auto position = static_cast<std::uint32_t>(keys[key]),
+                 normal = static_cast<std::uint32_t>(keys[key] >> 32);
+      mesh_.positions.push_back(positions_[position]);
+      if (has_normals) mesh_.normals.push_back(normal == none ? glm::vec3(0, 1, 0) : normals_[normal]);
     }
-    for (Line& l : mesh_.lines) {
-      for (std::uint32_t& v : l.vertex) v = vertex(v);
-    }
+    std::size_t at = 0;
+    each_vertex([&](std::uint32_t& v) { v = vertices.number[at++]; });
+    corners_ = {};
   }
 
   // A file does not say which sides are seen: both, unless the back is inside.
@@ -398,7 +403,8 @@ class Reader {
 
   std::map<std::string, ObjMaterial, std::less<>> library_;
   std::map<std::string, std::uint32_t, std::less<>> materials_of_names_;
-  std::set<std::string> libraries_;
+  std::set<std::string> libraries_;  // the files, links followed
+  std::size_t libraries_named_ = 0;
   std::vector<ObjMaterial> used_;  // parallel to World::materials while reading
   const ObjMaterial* now_ = nullptr;
   std::uint32_t now_index_ = 0, line_material_ = none;

@@ -30,7 +30,7 @@ struct ObjMaterial {
 
 /// Reads a material library's bytes into `materials`, a name at its first definition only. Problems inside it
 /// are warnings: a surface without its material is drawn grey.
-void parse_mtl(const std::string& bytes, Pictures& pictures,
+void parse_mtl(std::string_view bytes, Pictures& pictures,
                std::map<std::string, ObjMaterial, std::less<>>& materials);
 
 }  // namespace load

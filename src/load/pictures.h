@@ -14,8 +14,9 @@
 
 namespace load {
 
-/// Decodes a picture; what it is, its bytes say. The header is judged first: a side over
-/// limits::picture_side, or more than `most_texels`, is refused before anything of that size is allocated.
+/// Decodes a picture; what it is, its bytes say. The header is judged first: a side over limits::picture_side
+/// is refused before anything of that size is allocated. Of one that is more than 1,024 texels wide or high,
+/// or more than `most_texels`, means of 2 x 2, 4 x 4, ... texels are kept, and its own size beside them.
 /// Error: what is wrong, to be put behind the file's name.
 base::Result<Texture> decode_picture(std::string_view bytes, std::size_t most_texels = limits::texels);
 
@@ -23,8 +24,8 @@ base::Result<Texture> decode_picture(std::string_view bytes, std::size_t most_te
 /// what wears it is drawn without.
 class Pictures {
  public:
-  /// `world` and `warnings` must outlive this.
-  Pictures(const Source& source, World& world, std::vector<std::string>& warnings);
+  /// Textures go to `out`'s world, warnings and the names of the files read to itself; it must outlive this.
+  Pictures(const Source& source, LoadedScene& out);
 
   /// Index into World::textures of the file named by `reference`; `none` after a warning.
   /// `repeats`: coordinates outside 0..1 wrap; the same file may be wanted both ways.
@@ -39,16 +40,18 @@ class Pictures {
 
  private:
   struct Use {
-    std::string reference;
+    std::string file;
     bool repeats;
     auto operator<=>(const Use&) const = default;
   };
   std::uint32_t add(Texture texture);
-  base::Result<Texture> read(std::string_view reference);
+  std::uint32_t load_file(const std::string& file, bool repeats);
 
   const Source& source_;
+  LoadedScene& out_;
   World& world_;
-  std::vector<std::string>& warnings_;
+  std::map<std::string, std::string, std::less<>>
+      files_;  // reference -> file, links followed; "": there is none
   std::map<Use, std::uint32_t> loaded_;
   std::map<std::uint32_t, std::uint32_t> see_through_;
   std::vector<bool> partly_;

@@ -30,13 +30,15 @@ Content::Content(const World& world, int w, int h, int n)
     : width(w), height(h), pieces(n), units(choose_units(world)), pack(pack_textures(world.textures, w)) {
   report = pack.report;
   materials = packet_materials(world.materials, pack.textures);
-  for (std::size_t i = 0; i < world.meshes.size(); ++i) add_model(world, static_cast<std::uint32_t>(i));
+  std::vector<double> largest(world.meshes.size());  // scale of the instances of each mesh
+  for (const auto& instance : world.instances) {
+    if (instance.mesh < largest.size())
+      largest[instance.mesh] = std::max(largest[instance.mesh], scale_of(instance.model));
+  }
+  for (std::uint32_t i = 0; i < largest.size(); ++i) add_model(world, i, largest[i]);
 }
 
-void Content::add_model(const World& world, std::uint32_t index) {
-  double largest = 0;
-  for (const auto& instance : world.instances)
-    if (instance.mesh == index) largest = std::max(largest, scale_of(instance.model));
+void Content::add_model(const World& world, std::uint32_t index, double largest) {
   const double wanted = units * (largest > 0 ? largest : 1);
   const Mesh& mesh = world.meshes[index];
   const auto cut = tessellate(mesh, world.materials, pack.textures, pieces, report);

@@ -29,7 +29,7 @@ struct Content {
       report;  ///< for the user, once: scale, textures that were shrunk, repeats that were split
 
  private:
-  void add_model(const World& world, std::uint32_t index);
+  void add_model(const World& world, std::uint32_t index, double largest_instance);
 };
 
 /// GP0 words that upload the textures, GP1 words that set display mode and ranges.

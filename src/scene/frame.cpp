@@ -71,6 +71,7 @@ struct FrameBuilder::State {
   std::function<void(World&, double)> animate;
   std::optional<Camera> camera;
   Content content;
+  std::function<bool(double)> keep_going;
 
   // Memory that frames use one after the other.
   PassMemory memory;
@@ -95,6 +96,9 @@ const World& FrameBuilder::world() const { return state_->world; }
 const Plan& FrameBuilder::plan() const { return state_->plan; }
 Plan FrameBuilder::plan_of(const Knobs& knobs) const {
   return state_->plan_of(knobs, Annotate::when_needed, Pieces::limited);
+}
+void FrameBuilder::set_keep_going(std::function<bool(double)> keep_going) {
+  state_->keep_going = std::move(keep_going);
 }
 void FrameBuilder::set_camera(const Camera* camera) {
   state_->camera = camera != nullptr ? std::optional(*camera) : std::nullopt;
@@ -138,7 +142,11 @@ base::Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::
     s.split.begin();
     Pass(s.world, s.content, plan, s.memory).run(collected, s.split);
     const double before_split = now_ms();
-    s.split.finish(plan.width, plan.height, plan.fraction_mask, plan.split_scale);
+    if (auto split =
+            s.split.finish(plan.width, plan.height, plan.fraction_mask, plan.split_scale, s.keep_going);
+        !split)
+      return tl::make_unexpected(split.error());
+    collected.was_stopped = s.split.was_stopped();
     collected.ot_ms += now_ms() - before_split;
     collected.splits = s.split.splits();
     if (pieces == Pieces::snapped) collected.snapped = s.split.snap_pieces();

@@ -67,6 +67,7 @@ struct FrameStats {
   std::array<std::uint32_t, drop_reasons> dropped{};  ///< faces and lines that drew nothing, by Drop
   std::uint32_t clipped = 0;                          ///< faces and lines that were cut
   std::uint32_t splits = 0;                           ///< cuts that visibility bsp made
+  bool was_stopped = false;                           ///< the order of visibility bsp is not finished
   std::uint32_t snapped = 0;                          ///< pieces of polygons that became triangles (Pieces)
   std::uint32_t primitives = 0;                       ///< polygons and lines in the lists
   OutOfRange out_of_range;      ///< of them; not with visibility bsp, which has no buckets
@@ -172,6 +173,9 @@ class FrameBuilder {
   /// is.
   [[nodiscard]] const Plan& plan() const;
   [[nodiscard]] Plan plan_of(const Knobs& knobs) const;
+  /// Asked again and again while visibility bsp seeks an order, which may take minutes: false ends the
+  /// search, and the frame has FrameStats::was_stopped. Told how much is done, 0..1.
+  void set_keep_going(std::function<bool(double)> keep_going);
   /// The world as the last build() left it.
   [[nodiscard]] const World& world() const;
 

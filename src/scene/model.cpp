@@ -20,16 +20,15 @@ struct CornerColour {
   Shading shading = Shading::constant;
   std::array<std::int32_t, 3> self_light{};
   std::uint32_t vertex = none;  // if its depth or its own normal matters
-  gte::Vertex normal;
+  std::array<std::int16_t, 3> normal{};
   Rgb8 colour;
-  glm::vec3 exact_normal{0.0F};
-  std::uint32_t* number = nullptr;  // where the corner keeps its colour's index
+  std::uint32_t corner = 0;  // four to a face, behind all faces two to a line
 
   [[nodiscard]] auto key() const {
-    return std::tuple(shading, self_light, vertex, normal.x, normal.y, normal.z, colour.r, colour.g,
-                      colour.b);
+    return std::tuple(shading, self_light, vertex, normal, colour.r, colour.g, colour.b);
   }
 };
+static_assert(sizeof(CornerColour) <= 36);  // a million faces have four million of them
 
 gte::Vertex fixed_normal(glm::vec3 n) {
   const auto fixed = [](float v) { return round_saturated<std::int16_t>(static_cast<double>(v) * 4096); };
@@ -84,22 +83,27 @@ class Maker {
     return out;
   }
 
-  // Notes the corners of a face, in its console order, for numbering.
-  void add_corners(const Face& face, ModelFace& out) {
-    const bool flat_normal = mesh_.normals.size() != mesh_.positions.size();
-    const glm::vec3 normal = flat_normal ? face_normal(mesh_, face) : glm::vec3{0.0F};
-    for (std::size_t k = 0; k < corners(face); ++k) {
-      add(face.material, out.vertex[k], flat_normal ? normal : unit(mesh_.normals[out.vertex[k]]),
-          !flat_normal, face.colour[console_order(face)[k]], &out.colour[k]);
+  // Gives every corner of the faces and lines made from these the number of its colour.
+  ModelColours number(std::span<const Face* const> faces, std::span<const Line* const> lines, Model& model) {
+    sources_ = faces;
+    model_ = &model;
+    std::size_t count = 2 * lines.size();
+    for (const Face* face : faces) count += corners(*face);
+    corners_.reserve(count);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const Face& face = *faces[i];
+      for (std::size_t k = 0; k < corners(face); ++k) {
+        const auto corner = static_cast<std::uint32_t>(4 * i + k);
+        add(face.material, model.faces[i].vertex[k], normal_of(corner), has_normals(),
+            face.colour[console_order(face)[k]], corner);
+      }
     }
-  }
-  void add_ends(const Line& line, ModelLine& out) {
-    for (std::size_t k = 0; k < 2; ++k) {
-      add(line.material, line.vertex[k], std::nullopt, false, line.colour[k], &out.colour[k]);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (std::size_t k = 0; k < 2; ++k) {
+        add(lines[i]->material, lines[i]->vertex[k], std::nullopt, false, lines[i]->colour[k],
+            static_cast<std::uint32_t>(4 * faces.size() + 2 * i + k));
+      }
     }
-  }
-
-  ModelColours number() {
     std::sort(corners_.begin(), corners_.end(),
               [](const CornerColour& a, const CornerColour& b) { return a.key() < b.key(); });
     ModelColours out;
@@ -107,24 +111,36 @@ class Maker {
     for (const auto& corner : corners_) {
       if (last == nullptr || last->key() != corner.key()) append(out, corner);
       last = &corner;
-      *corner.number = static_cast<std::uint32_t>(out.given.size() - 1);
+      number_of(corner.corner) = static_cast<std::uint32_t>(out.given.size() - 1);
     }
     return out;
   }
 
  private:
+  [[nodiscard]] bool has_normals() const { return mesh_.normals.size() == mesh_.positions.size(); }
+  // Of a corner of a face.
+  [[nodiscard]] glm::vec3 normal_of(std::uint32_t corner) const {
+    if (!has_normals()) return face_normal(mesh_, *sources_[corner / 4]);
+    return unit(mesh_.normals[model_->faces[corner / 4].vertex[corner % 4]]);
+  }
+  [[nodiscard]] std::uint32_t& number_of(std::uint32_t corner) {
+    const auto of_faces = static_cast<std::uint32_t>(4 * sources_.size());
+    if (corner < of_faces) return model_->faces[corner / 4].colour[corner % 4];
+    return model_->lines[(corner - of_faces) / 2].colour[corner % 2];
+  }
+
   // Lines have no normal and are not lit.
   void add(std::uint32_t material, std::uint32_t vertex, std::optional<glm::vec3> normal, bool own_normal,
-           Rgb8 colour, std::uint32_t* number) {
+           Rgb8 colour, std::uint32_t number) {
     const Material& m = materials_[material];
     CornerColour corner;
     corner.colour = colour;
-    corner.number = number;
+    corner.corner = number;
     const bool uses_colour = !(m.raw_texture && m.texture < textures_.size());
     if (uses_colour && m.lit && normal) {
       corner.shading = Shading::lit;
-      corner.normal = fixed_normal(*normal);
-      corner.exact_normal = *normal;
+      const gte::Vertex fixed = fixed_normal(*normal);
+      corner.normal = {fixed.x, fixed.y, fixed.z};
       for (std::size_t c = 0; c < 3; ++c) {
         const auto light = std::clamp(static_cast<double>(m.self_light[static_cast<int>(c)]), 0.0, 8.0);
         corner.self_light[c] = round_saturated<std::int32_t>(light * 4096);
@@ -136,14 +152,14 @@ class Maker {
     corners_.push_back(corner);
   }
 
-  static void append(ModelColours& out, const CornerColour& corner) {
+  void append(ModelColours& out, const CornerColour& corner) const {
     out.given.push_back({corner.colour.r, corner.colour.g, corner.colour.b, 0});
     if (corner.shading == Shading::constant) return;
     out.vertex.push_back(corner.vertex == none ? 0 : corner.vertex);
     out.cued = out.given.size();
     if (corner.shading == Shading::cued) return;
-    out.normal.push_back(corner.normal);
-    out.exact_normal.push_back(corner.exact_normal);
+    out.normal.push_back({corner.normal[0], corner.normal[1], corner.normal[2], 0});
+    out.exact_normal.push_back(normal_of(corner.corner));
     if (out.lit_runs.empty() || out.lit_runs.back().self_light != corner.self_light) {
       out.lit_runs.push_back({0, corner.self_light});
     }
@@ -171,6 +187,8 @@ class Maker {
   std::span<const Material> materials_;
   std::span<const StoredTexture> textures_;
   bool is_cued_;
+  std::span<const Face* const> sources_;
+  Model* model_ = nullptr;
   std::vector<CornerColour> corners_;
 };
 
@@ -214,10 +232,7 @@ Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources,
     model.lines.push_back(out);
     lines.push_back(&line);
   }
-  // Only now that the vectors have stopped growing may corners keep addresses into them.
-  for (std::size_t i = 0; i < faces.size(); ++i) maker.add_corners(*faces[i], model.faces[i]);
-  for (std::size_t i = 0; i < lines.size(); ++i) maker.add_ends(*lines[i], model.lines[i]);
-  model.colours = maker.number();
+  model.colours = maker.number(faces, lines, model);
   for (auto& face : model.faces) {
     const std::size_t n = face.is_quad() ? 4 : 3;
     face.gouraud = std::any_of(face.colour.begin() + 1, face.colour.begin() + static_cast<std::ptrdiff_t>(n),

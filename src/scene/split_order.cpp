@@ -1,6 +1,7 @@
 #include "scene/split_order.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "scene/snap.h"
@@ -36,6 +37,7 @@ void SplitOrder::begin() {
   lines_.clear();
   ordered_.clear();
   splits_ = 0;
+  was_stopped_ = false;
 }
 
 void SplitOrder::operator()(const Primitive& p) {
@@ -49,17 +51,26 @@ void SplitOrder::operator()(const Primitive& p) {
   }
 }
 
-void SplitOrder::finish(int width, int height, std::uint8_t fraction_mask, int scale) {
+base::Result<void> SplitOrder::finish(int width, int height, std::uint8_t fraction_mask, int scale,
+                                      const std::function<bool(double)>& keep_going) {
   std::vector<exact::Triangle> triangles;
   triangles.reserve(triangles_.size());
   for (const Primitive& p : triangles_) triangles.push_back(on_screen(p, fraction_mask, scale));
-  auto order = exact::split_into_order(triangles, {0, 0, width * scale - 1, height * scale - 1});
+  const exact::SplitLimits limits{.keep_going = keep_going};
+  auto order = exact::split_into_order(triangles, {0, 0, width * scale - 1, height * scale - 1}, limits);
+  if (order.was_too_much) {
+    return base::fail("visibility bsp: its pieces have more than " + std::to_string(limits.most_spans) +
+                          " rows in all, the limit of memory; expected fewer polygons that pierce each other",
+                      base::Exit::bad_input);
+  }
   splits_ = order.splits;
+  was_stopped_ = order.was_stopped;
   ordered_.reserve(order.pieces.size() + lines_.size());
   for (exact::Piece& piece : order.pieces) {
     ordered_.push_back({triangles_[piece.triangle], piece.is_whole, std::move(piece.rows)});
   }
   place_lines();
+  return {};
 }
 
 std::uint32_t SplitOrder::snap_pieces() {
@@ -80,12 +91,37 @@ std::uint32_t SplitOrder::snap_pieces() {
   return pieces;
 }
 
+// Behind the last polygon whose key is not nearer; lines at one place from far to near.
 void SplitOrder::place_lines() {
-  for (const Primitive& line : lines_) {
-    const auto last = std::find_if(ordered_.rbegin(), ordered_.rend(),
-                                   [&](const OrderedPrimitive& o) { return o.primitive.otz >= line.otz; });
-    ordered_.insert(last.base(), {line, true, {}});
+  if (lines_.empty()) return;
+  std::vector<std::size_t>
+      last;  // polygons that are farther than all that follow: rising places, falling keys
+  for (std::size_t i = 0; i < ordered_.size(); ++i) {
+    while (!last.empty() && ordered_[last.back()].primitive.otz <= ordered_[i].primitive.otz) last.pop_back();
+    last.push_back(i);
   }
+  struct Placed {
+    std::size_t behind;  // that many polygons
+    const Primitive* line;
+  };
+  std::vector<Placed> placed;
+  for (const Primitive& line : lines_) {
+    const auto nearer = std::partition_point(
+        last.begin(), last.end(), [&](std::size_t i) { return ordered_[i].primitive.otz >= line.otz; });
+    placed.push_back({nearer == last.begin() ? 0 : *std::prev(nearer) + 1, &line});
+  }
+  std::stable_sort(placed.begin(), placed.end(), [](const Placed& a, const Placed& b) {
+    return a.behind != b.behind ? a.behind < b.behind : a.line->otz > b.line->otz;
+  });
+  std::vector<OrderedPrimitive> all;
+  all.reserve(ordered_.size() + placed.size());
+  std::size_t polygon = 0;
+  for (const Placed& p : placed) {
+    for (; polygon < p.behind; ++polygon) all.push_back(std::move(ordered_[polygon]));
+    all.push_back({*p.line, true, {}});
+  }
+  for (; polygon < ordered_.size(); ++polygon) all.push_back(std::move(ordered_[polygon]));
+  ordered_ = std::move(all);
 }
 
 }  // namespace scene

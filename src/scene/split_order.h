@@ -6,8 +6,10 @@
 // by its key. [ours]
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
+#include "base/result.h"
 #include "exact/split.h"
 #include "scene/submit.h"
 
@@ -29,7 +31,9 @@ class SplitOrder {
   /// Orders what was collected, for a picture of width x height pixels, `scale` samples to a pixel and axis:
   /// 1, 2 or 4. `fraction_mask`: the bits of fraction_x and fraction_y that the corners are drawn with; 0 for
   /// whole pixels.
-  void finish(int width, int height, std::uint8_t fraction_mask, int scale);
+  /// Error: it would take too much memory.
+  base::Result<void> finish(int width, int height, std::uint8_t fraction_mask, int scale,
+                            const std::function<bool(double)>& keep_going = {});
 
   /// After finish(): puts whole triangles in the place of pieces (scene/snap.h). Returns the number of
   /// pieces.
@@ -37,6 +41,8 @@ class SplitOrder {
 
   [[nodiscard]] const std::vector<OrderedPrimitive>& far_to_near() const { return ordered_; }
   [[nodiscard]] std::uint32_t splits() const { return splits_; }
+  /// `keep_going` said no: the order is not right everywhere.
+  [[nodiscard]] bool was_stopped() const { return was_stopped_; }
 
  private:
   void place_lines();
@@ -44,6 +50,7 @@ class SplitOrder {
   std::vector<Primitive> triangles_, lines_;  // quads as the two triangles the GPU makes of them
   std::vector<OrderedPrimitive> ordered_;
   std::uint32_t splits_ = 0;
+  bool was_stopped_ = false;
 };
 
 }  // namespace scene

@@ -344,9 +344,11 @@ TexturePack pack_textures(std::span<const Texture> textures, int width) {
   }
   for (std::size_t i = 0; i < textures.size(); ++i) {
     const auto& t = textures[i];
-    if (prepared[i].width == t.width && prepared[i].height == t.height) continue;
+    const int width_given = t.file_width > 0 ? t.file_width : t.width,
+              height_given = t.file_height > 0 ? t.file_height : t.height;
+    if (prepared[i].width == width_given && prepared[i].height == height_given) continue;
     pack->report.push_back("texture " + (t.name.empty() ? std::to_string(i) : t.name) + ": " +
-                           size_text(t.width, t.height) + " stored as " +
+                           size_text(width_given, height_given) + " stored as " +
                            size_text(prepared[i].width, prepared[i].height));
   }
   return std::move(*pack);

@@ -39,7 +39,8 @@ struct Texture {
   int width = 0, height = 0;
   std::vector<Rgba8> pixels;  ///< width * height
   TexelFormat depth = TexelFormat::clut8;
-  bool repeats = false;  ///< texture coordinates outside 0..1 wrap; otherwise they are clamped
+  bool repeats = false;                 ///< texture coordinates outside 0..1 wrap; otherwise they are clamped
+  int file_width = 0, file_height = 0;  ///< of the picture it was made from, where that was another size
 };
 
 struct Material {

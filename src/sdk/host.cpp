@@ -282,8 +282,13 @@ class Host {
       if (auto done = display::save_vram(settings_.vram, console.gpu.vram()); !done) return done;
     }
     if (!settings_.record.empty()) {
-      const auto& dump = *console.feed.recording();
-      if (auto done = dump::save_dump(settings_.record, dump, dump::DumpFormat::standard); !done) return done;
+      const auto& recording = *console.feed.recording();
+      const auto add_all = [&recording](dump::DumpWriter& writer) -> base::Result<void> {
+        for (const auto& packet : recording.packets) writer.add(packet.type, recording.payload(packet));
+        return {};
+      };
+      if (auto done = dump::write_dump(settings_.record, dump::DumpFormat::standard, add_all); !done)
+        return done;
     }
     if (!settings_.ram.empty()) {
       const auto words = console.ram.words();

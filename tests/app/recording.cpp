@@ -36,6 +36,27 @@ std::unique_ptr<gpu::Gpu> replayed(const dump::Dump& dump, dump::DumpFormat form
   return gpu;
 }
 
+struct Recorded {
+  dump::Dump dump;
+  app::SnapCost snapped;
+};
+
+/// What whoever reads the recording gets.
+base::Result<Recorded> recorded(const scene::Scene& scene, std::uint32_t frames, const scene::Knobs& knobs,
+                                scene::Annotate annotate) {
+  std::vector<std::byte> file;
+  dump::DumpWriter writer(dump::DumpFormat::standard, [&](std::span<const std::byte> bytes) {
+    file.insert(file.end(), bytes.begin(), bytes.end());
+  });
+  const auto snapped = app::record(scene, frames, knobs, annotate, writer);
+  if (!snapped) return tl::make_unexpected(snapped.error());
+  auto dump = dump::parse_dump(file);
+  REQUIRE(dump);
+  CHECK(writer.words() == dump->words.size());
+  CHECK(writer.held_bytes() == static_cast<std::uint64_t>(dump->held_bytes()));
+  return Recorded{std::move(*dump), *snapped};
+}
+
 // Two flat quads that pierce each other.
 scene::Scene flat_crossing() {
   scene::Scene scene;
@@ -77,7 +98,7 @@ TEST_SUITE("app") {
       const auto scene = demos::make(demo);
       const scene::Knobs knobs;
       const auto live = drawn(scene, 3, knobs);
-      const auto recording = app::record(scene, 3, knobs, scene::Annotate::when_needed);
+      const auto recording = recorded(scene, 3, knobs, scene::Annotate::when_needed);
       REQUIRE(recording);
       CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, knobs), *live));
       CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::v1, knobs), *live));
@@ -89,7 +110,7 @@ TEST_SUITE("app") {
     const scene::Knobs plain;
     scene::Knobs depth;
     depth.visibility = scene::Visibility::zbuffer;
-    const auto recording = app::record(scene, 2, plain, scene::Annotate::always);
+    const auto recording = recorded(scene, 2, plain, scene::Annotate::always);
     REQUIRE(recording);
     CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, plain), *drawn(scene, 2, plain)));
     const auto deep = replayed(recording->dump, dump::DumpFormat::standard, depth);
@@ -102,7 +123,7 @@ TEST_SUITE("app") {
     scene::Knobs tall;
     tall.width = 640;
     tall.height = 480;
-    const auto recording = app::record(scene, 3, tall, scene::Annotate::when_needed);
+    const auto recording = recorded(scene, 3, tall, scene::Annotate::when_needed);
     REQUIRE(recording);
     CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, tall), *drawn(scene, 3, tall)));
   }
@@ -113,7 +134,7 @@ TEST_SUITE("app") {
     for (const auto* name : {"cyclic", "crossing", "corridor"}) {
       CAPTURE(name);
       const auto scene = demos::make(*demos::find(name));
-      const auto recording = app::record(scene, 2, bsp, scene::Annotate::when_needed);
+      const auto recording = recorded(scene, 2, bsp, scene::Annotate::when_needed);
       REQUIRE(recording);
       const auto& cost = recording->snapped;
       CHECK(cost.pieces > 0);
@@ -128,7 +149,7 @@ TEST_SUITE("app") {
 
   TEST_CASE("flat polygons that are split lose nothing by being recorded") {
     const auto scene = flat_crossing();
-    const auto recording = app::record(scene, 1, bsp, scene::Annotate::when_needed);
+    const auto recording = recorded(scene, 1, bsp, scene::Annotate::when_needed);
     REQUIRE(recording);
     CHECK(recording->snapped.pieces > 2);
     CHECK(recording->snapped.pixels == 0);
@@ -141,7 +162,7 @@ TEST_SUITE("app") {
     for (const auto* name : {"crates", "glass"}) {
       CAPTURE(name);
       const auto scene = demos::make(*demos::find(name));
-      const auto recording = app::record(scene, 2, bsp, scene::Annotate::when_needed);
+      const auto recording = recorded(scene, 2, bsp, scene::Annotate::when_needed);
       REQUIRE(recording);
       CHECK(recording->snapped == app::SnapCost{});
       CHECK(same_vram(*replayed(recording->dump, dump::DumpFormat::standard, {}), *drawn(scene, 2, bsp)));
@@ -151,8 +172,8 @@ TEST_SUITE("app") {
   TEST_CASE(
       "bsp writes no depths into the list unless it is asked to, and with them a z-buffer can replay it") {
     const auto scene = demos::make(*demos::find("cyclic"));
-    const auto plain = app::record(scene, 1, bsp, scene::Annotate::when_needed);
-    const auto annotated = app::record(scene, 1, bsp, scene::Annotate::always);
+    const auto plain = recorded(scene, 1, bsp, scene::Annotate::when_needed);
+    const auto annotated = recorded(scene, 1, bsp, scene::Annotate::always);
     REQUIRE(plain);
     REQUIRE(annotated);
     scene::Knobs depth;

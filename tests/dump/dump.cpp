@@ -153,10 +153,10 @@ TEST_SUITE("gpu") {
     check_error(file({0x06000002, 1, 2}), magic_bytes, "packet of type 06h has 2 words, 1 was expected");
   }
 
-  TEST_CASE("read-backs of more than a GiB in all are refused") {
+  TEST_CASE("read-backs of more than 128 MiB in all are refused") {
     Words words;
-    for (int n = 0; n < 1025; ++n) words.insert(words.end(), {0x04000001, 262144});
-    check_error(file(words), magic_bytes + 1024 * 8, "reads back more than 1073741824 bytes");
+    for (int n = 0; n < 129; ++n) words.insert(words.end(), {0x04000001, 262144});
+    check_error(file(words), magic_bytes + 128 * 8, "reads back more than 134217728 bytes");
   }
 
   TEST_CASE("every beginning of a dump is read or refused, never more than it holds") {

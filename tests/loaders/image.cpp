@@ -52,9 +52,18 @@ TEST_SUITE("loaders") {
     CHECK(texture.error().text.find("8192 x 8192") != std::string::npos);
   }
 
-  TEST_CASE("pictures of one scene share a limit of texels, judged by the header") {
-    CHECK(load::decode_picture(tests::png(8, 8, 0, 0, 0), 64));
-    CHECK(!load::decode_picture(tests::png(8, 8, 0, 0, 0), 63));
+  TEST_CASE("a picture for which few texels are left is kept as means, down to a single one") {
+    const auto whole = load::decode_picture(tests::png(40, 30, 10, 20, 30), 1200);
+    REQUIRE(whole);
+    CHECK(whole->width == 40);
+    const auto half = load::decode_picture(tests::png(40, 30, 10, 20, 30), 1199);
+    REQUIRE(half);
+    CHECK(half->width == 20);
+    CHECK(half->height == 15);
+    CHECK(half->pixels[7] == scene::Rgba8{10, 20, 30, 255});
+    const auto one = load::decode_picture(tests::png(40, 30, 10, 20, 30), 0);
+    REQUIRE(one);
+    CHECK(one->pixels.size() == 1);
   }
 
   TEST_CASE("bytes that are no picture, and every truncation of one, give an error and nothing else") {

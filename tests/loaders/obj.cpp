@@ -175,7 +175,8 @@ TEST_SUITE("loaders") {
     REQUIRE(loaded);
     REQUIRE(loaded->warnings.size() == 1);
     CHECK(loaded->warnings[0] ==
-          "model.obj:1: material library 'none.mtl' cannot be read; its materials are drawn grey");
+          "model.obj:1: material library 'none.mtl' cannot be read (there is no such file); its materials "
+          "are drawn grey");
     loaded = tests::obj("mtllib m.mtl\n" + corners + "usemtl worn\nf 1 2 3\nusemtl other\nf 1 2 3\n",
                         folder.path());
     REQUIRE(loaded);

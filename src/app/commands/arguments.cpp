@@ -2,10 +2,22 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <utility>
+
+#include "base/same_file.h"
+#include "demos/demos.h"
 
 namespace app {
 namespace {
+
+// Options that name a FILE to be read.
+constexpr std::array<std::string_view, 5> inputs{"--vram-in", "--expect", "--mask", "--settings", "--saved"};
+
+std::vector<base::NamedFile>& outputs() {
+  static std::vector<base::NamedFile> of_this_run;  // the program runs one subcommand
+  return of_this_run;
+}
 
 void set_or_throw(scene::Knobs& knobs, const std::string& name, const std::string& value) {
   if (const auto set = scene::set_knob(knobs, name, value); !set) {
@@ -96,6 +108,47 @@ void Arguments::knobs(scene::Knobs& knobs, std::initializer_list<std::string_vie
 }
 
 void Arguments::footer(std::function<std::string()> text) { sub_.footer(std::move(text)); }
+
+base::Result<void> guard_outputs(const CLI::App& sub) {
+  std::vector<base::NamedFile> read;
+  outputs().clear();
+  for (const CLI::Option* option : sub.get_options()) {
+    if (option->count() == 0) continue;
+    const std::string name = option->get_positional() ? "the input" : option->get_name();
+    const bool is_input =
+        option->get_positional() || std::find(inputs.begin(), inputs.end(), name) != inputs.end();
+    if (!is_input && option->get_type_name() != "FILE") continue;
+    for (const std::string& path : option->reduced_results()) {
+      if (is_input && demos::find(path) != nullptr) continue;
+      (is_input ? read : outputs()).push_back({name, path});
+    }
+  }
+  return base::check_outputs(outputs(), read);
+}
+
+base::Result<void> guard_inputs(std::span<const std::filesystem::path> files) {
+  std::vector<base::NamedFile> read;
+  for (const auto& file : files) read.push_back({"the input's", file.string()});
+  return base::check_outputs(outputs(), read);
+}
+
+void add_knobs(CLI::App& sub, scene::Knobs& knobs, std::initializer_list<std::string_view> names) {
+  for (const auto& knob : scene::knob_table()) {
+    if (names.size() != 0 && std::find(names.begin(), names.end(), knob.name) == names.end()) continue;
+    const std::string name(knob.name);
+    CLI::Option* option = nullptr;
+    if (knob.values == "off|on") {
+      option = sub.add_flag_callback(
+          "--" + name, [&knobs, name] { set_or_throw(knobs, name, "on"); }, std::string(knob.help));
+    } else {
+      option = sub.add_option_function<std::string>(
+          "--" + name, [&knobs, name](const std::string& value) { set_or_throw(knobs, name, value); },
+          std::string(knob.help) + " [" + knob.get(knobs) + "]");
+      option->type_name(std::string(knob.values))->take_last();
+    }
+    option->group("Knobs");
+  }
+}
 
 std::string one_line(const CLI::ParseError& error) {
   std::string text = error.what();

@@ -3,13 +3,16 @@
 // main.cpp alone: its headers take longer to compile than any command.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/result.h"
 #include "scene/knobs.h"
 
 namespace CLI {
@@ -59,6 +62,12 @@ class Arguments {
  private:
   CLI::App& sub_;
 };
+
+/// Before a parsed subcommand runs: no file may be written twice, or read and written, by whatever names
+/// (base/same_file.h). Outputs are the options whose type is FILE. Error (exit 2).
+base::Result<void> guard_outputs(const CLI::App& sub);
+/// The same for files that an input names (pictures, materials): they must be none of the outputs.
+base::Result<void> guard_inputs(std::span<const std::filesystem::path> files);
 
 /// The error of reading a command line in one line, naming the option and what was expected.
 std::string one_line(const CLI::ParseError& error);

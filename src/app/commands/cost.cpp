@@ -18,6 +18,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
+#include "base/message.h"
 #include "base/write_file.h"
 #include "cost/report.h"
 #include "gte/batch.h"
@@ -78,8 +79,7 @@ base::Result<void> write_all(const Options& o, const cost::Report& report) {
   if (o.html.empty()) return {};
   const auto html = cost::to_html(report);
   auto done = write(o.html, html.page);
-  if (done && !html.has_plots)
-    std::fprintf(stderr, "otter: gnuplot cannot be run: %s has no plots\n", o.html.c_str());
+  if (done && !html.has_plots) base::warn("otter", "gnuplot cannot be run: " + o.html + " has no plots");
   return done;
 }
 

@@ -8,7 +8,9 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
+#include "app/commands/progress.h"
 #include "base/write_file.h"
 
 namespace app {
@@ -24,7 +26,13 @@ base::Result<int> run_effects(const Options& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
   const auto scene = open_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
-  const auto report = cost::find_effects(*scene, options.frame, options.knobs);
+  const Interrupt interrupt;
+  Progress progress("effects", 1000);
+  const auto report =
+      cost::find_effects(*scene, options.frame, options.knobs, 0, [&](std::size_t done, std::size_t all) {
+        progress.at(done * 1000 / all);
+        return !interrupt.was_asked();
+      });
   if (!report) return tl::make_unexpected(report.error());
   if (!options.json.empty() && options.json != "-") {
     if (auto written = base::write_file(options.json, cost::to_json(*report)); !written) {
@@ -34,6 +42,9 @@ base::Result<int> run_effects(const Options& options) {
   const auto text = options.json == "-" ? cost::to_json(*report) : cost::to_text(*report);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
     return base::fail("standard output: cannot be written", base::Exit::failed);
+  }
+  if (!report->is_complete) {
+    return base::fail("interrupted: the report holds what was measured until then", base::Exit::interrupted);
   }
   return 0;
 }

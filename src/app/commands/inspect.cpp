@@ -53,6 +53,7 @@ constexpr std::uint32_t highest_number = 1'000'000'000;
 struct Watched {
   inspect::Report report;
   std::vector<std::uint16_t> vram;
+  bool is_complete = true;  // false: Ctrl-C cut it short
 };
 
 // Where frames come from: a scene, or a dump.
@@ -81,11 +82,14 @@ class SceneSource : public Source {
           "that samples each once (none, fxaa)");
     }
     machine_.watch(&trace);
+    machine_.set_keep_going([](double) { return !Interrupt::was_asked(); });
     const auto stats = machine_.draw(number, knobs_);
     machine_.watch(nullptr);
     if (!stats) return tl::make_unexpected(stats.error());
+    if (trace.is_full)
+      return base::fail(name_ + ": frame " + std::to_string(number) + ": " + trace.limit_text());
     Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
-                    machine_.vram()};
+                    machine_.vram(), !stats->was_stopped};
     add_lint(*stats, watched.report);
     return watched;
   }
@@ -120,6 +124,10 @@ class SceneSource : public Source {
 
 class DumpSource : public Source {
  public:
+  // What a dump and the history of one of its frames may take together.
+  static constexpr std::int64_t most_of_both = std::int64_t{400} << 20,
+                                least_of_trace = std::int64_t{128} << 20;
+
   DumpSource(std::string name, dump::Dump dump, const scene::Knobs& knobs)
       : name_(std::move(name)), dump_(std::move(dump)), knobs_(knobs) {
     gpu_.set_depth(scene::depth_options(knobs));
@@ -128,14 +136,19 @@ class DumpSource : public Source {
   // Frame N of a dump lies between its VSync packets N-1 and N. Frames must be asked for in ascending order.
   base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
     play_until(number - 1);
+    trace.allowance = std::max(most_of_both - dump_.held_bytes(), least_of_trace);
+    trace.clear();
     gpu_.set_trace(&trace);
-    const auto end = play_until(number);
+    const auto end = play_until(number, &trace);
     gpu_.set_trace(nullptr);
+    if (trace.is_full)
+      return base::fail(name_ + ": frame " + std::to_string(number) + ": " + trace.limit_text());
     if (auto judged = judge_without_depth(name_, knobs_, end); !judged)
       return tl::make_unexpected(judged.error());
     const auto vram = gpu_.vram().pixels();
     Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
-                    {vram.begin(), vram.end()}};
+                    {vram.begin(), vram.end()},
+                    !Interrupt::was_asked()};
     watched.report.lint.push_back(
         {"dropped", "", "not available: what a program leaves out before drawing is not in its dump"});
     watched.report.lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
@@ -151,16 +164,19 @@ class DumpSource : public Source {
  private:
   // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are
   // fewer.
-  gpu::FrameEnd play_until(std::uint64_t vsyncs) {
-    dump::Dump part;
-    part.gpu_version = dump_.gpu_version;
-    while (next_ < dump_.packets.size() && (seen_ < vsyncs || dump_.vsyncs == 0)) {
-      const dump::Packet& packet = dump_.packets[next_++];
-      part.add(packet.type, dump_.payload(packet));
-      if (packet.type == dump::PacketType::vsync) ++seen_;
-      if (vsyncs == 0) break;
+  gpu::FrameEnd play_until(std::uint64_t vsyncs, const gpu::Trace* watching = nullptr) {
+    const std::size_t first = next_;
+    const bool is_one_frame = dump_.vsyncs == 0 && vsyncs > 0;
+    while (next_ < dump_.packets.size() && (seen_ < vsyncs || is_one_frame)) {
+      if (dump_.packets[next_++].type == dump::PacketType::vsync) ++seen_;
     }
-    return dump::replay(part, gpu_);
+    return dump::replay(dump_, gpu_,
+                        {.keep_going =
+                             [watching](std::uint64_t) {
+                               return (watching == nullptr || !watching->is_full) && !Interrupt::was_asked();
+                             },
+                         .first_packet = first,
+                         .end_packet = next_});
   }
 
   std::string name_;
@@ -271,7 +287,12 @@ base::Result<void> check_inside(const inspect::Rectangle& picture, Position at) 
 }
 
 base::Result<void> write_json(const std::string& path, inspect::FramesJson& json) {
-  if (path != "-") return base::write_file(path, [&](std::FILE* file) { json.write(file); });
+  if (path != "-") {
+    return base::write_file(path, [&](std::FILE* file) -> base::Result<void> {
+      json.write(file);
+      return {};
+    });
+  }
   json.write(stdout);
   return {};
 }
@@ -298,6 +319,7 @@ base::Result<int> run(const Options& options) {
     trace.clear();
     auto watched = (*source)->frame(n, trace);
     if (!watched) return tl::make_unexpected(watched.error());
+    if (!watched->is_complete) break;
     if (*pixel) {
       if (auto inside = check_inside(watched->report.picture, **pixel); !inside)
         return tl::make_unexpected(inside.error());

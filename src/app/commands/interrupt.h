@@ -5,15 +5,21 @@
 
 namespace app {
 
-/// While one lives, SIGINT sets a flag instead of ending the program.
+/// While one lives, the first SIGINT sets a flag instead of ending the program; a second one ends it at once.
 class Interrupt {
  public:
-  Interrupt() : before_(std::signal(SIGINT, [](int) { flag = 1; })) {}
+  Interrupt() {
+    flag = 0;
+    before_ = std::signal(SIGINT, [](int) {
+      flag = 1;
+      std::signal(SIGINT, SIG_DFL);
+    });
+  }
   ~Interrupt() { std::signal(SIGINT, before_); }
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
-  [[nodiscard]] bool was_asked() const { return flag != 0; }
+  [[nodiscard]] static bool was_asked() { return flag != 0; }
 
  private:
   static inline volatile std::sig_atomic_t flag = 0;

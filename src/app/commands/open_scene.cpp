@@ -1,9 +1,10 @@
 #include "app/commands/open_scene.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <utility>
 
+#include "app/commands/arguments.h"
+#include "base/message.h"
 #include "demos/demos.h"
 #include "load/load.h"
 
@@ -17,14 +18,15 @@ std::string scene_names() {
 
 base::Result<scene::Scene> open_scene(const std::string& name) {
   if (const auto* demo = demos::find(name)) return demos::make(*demo);
-  std::error_code ignored;
+  std::error_code fault;
   const bool is_path = name.find_first_of("./") != std::string::npos;
-  if (!is_path && !std::filesystem::exists(name, ignored)) {
+  if (!is_path && std::filesystem::status(name, fault).type() == std::filesystem::file_type::not_found) {
     return base::fail(name + ": no such scene; expected one of " + scene_names() + ", or a file");
   }
   auto loaded = load::load(name);
   if (!loaded) return tl::make_unexpected(loaded.error());
-  for (const auto& warning : loaded->warnings) std::fprintf(stderr, "otter: %s\n", warning.c_str());
+  for (const auto& warning : loaded->warnings) base::warn("otter", warning);
+  if (auto apart = guard_inputs(loaded->files); !apart) return tl::make_unexpected(apart.error());
   return std::move(loaded->scene);
 }
 

@@ -7,9 +7,11 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
 #include "app/commands/recording.h"
+#include "base/message.h"
 #include "dump/dump_file.h"
 
 namespace app {
@@ -39,17 +41,33 @@ base::Result<int> record_scene(const Options& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
   const auto scene = open_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
-  Progress progress("record", options.frames);
   const auto annotate = options.annotate ? scene::Annotate::always : scene::Annotate::when_needed;
-  const auto recording = record(*scene, options.frames, options.knobs, annotate, [&] { progress.step(); });
-  if (!recording) return tl::make_unexpected(recording.error());
-  const auto& dump = recording->dump;
   const auto format = options.format == "v1" ? dump::DumpFormat::v1 : dump::DumpFormat::standard;
-  if (auto saved = dump::save_dump(options.output, dump, format); !saved)
-    return tl::make_unexpected(saved.error());
-  std::printf("%s: %s, %u frames, %zu words\n", options.output.c_str(), scene->name.c_str(), options.frames,
-              dump.words.size());
-  if (options.knobs.visibility == scene::Visibility::bsp) report(recording->snapped);
+  SnapCost snapped;
+  std::uint64_t words = 0;
+  std::uint32_t done = 0;
+  const Interrupt interrupt;
+  auto saved = dump::write_dump(options.output, format, [&](dump::DumpWriter& writer) -> base::Result<void> {
+    Progress progress("record", options.frames);
+    const auto recorded = record(*scene, options.frames, options.knobs, annotate, writer, [&] {
+      progress.step();
+      ++done;
+      return !interrupt.was_asked();
+    });
+    if (!recorded) return tl::make_unexpected(recorded.error());
+    snapped = *recorded;
+    words = writer.words();
+    return {};
+  });
+  if (!saved) return tl::make_unexpected(saved.error());
+  std::printf("%s: %s, %u frames, %llu words\n", base::printable(options.output).c_str(),
+              base::printable(scene->name).c_str(), done, static_cast<unsigned long long>(words));
+  if (options.knobs.visibility == scene::Visibility::bsp) report(snapped);
+  if (done < options.frames) {
+    return base::fail("interrupted: the dump holds " + std::to_string(done) + " frames of " +
+                          std::to_string(options.frames),
+                      base::Exit::interrupted);
+  }
   return 0;
 }
 

@@ -74,14 +74,14 @@ class Comparison {
 
 }  // namespace
 
-base::Result<Recording> record(const scene::Scene& scene, std::uint32_t frames, const scene::Knobs& knobs,
-                               scene::Annotate annotate, const std::function<void()>& frame_done) {
+base::Result<SnapCost> record(const scene::Scene& scene, std::uint32_t frames, const scene::Knobs& knobs,
+                              scene::Annotate annotate, dump::DumpWriter& dump,
+                              const std::function<bool()>& frame_done) {
   using dump::PacketType;
   scene::FrameBuilder builder(scene, knobs);
   std::optional<Comparison> comparison;
   if (knobs.visibility == scene::Visibility::bsp) comparison.emplace(scene, knobs);
   ot::MainRam ram(ot::RamSize::mib8);
-  dump::Dump dump;
   dump.add_text(PacketType::comment, "otter: " + scene.name);
   dump.add_text(PacketType::video_format, "NTSC");
   dump.add(PacketType::gpu_version, std::array{gpu_version});
@@ -109,9 +109,9 @@ base::Result<Recording> record(const scene::Scene& scene, std::uint32_t frames, 
         return tl::make_unexpected(compared.error());
       }
     }
-    if (frame_done) frame_done();
+    if (frame_done && !frame_done()) break;
   }
-  return Recording{std::move(dump), comparison ? comparison->cost : SnapCost{}};
+  return comparison ? comparison->cost : SnapCost{};
 }
 
 }  // namespace app

@@ -20,16 +20,12 @@ struct SnapCost {
   bool operator==(const SnapCost&) const = default;
 };
 
-struct Recording {
-  dump::Dump dump;
-  SnapCost snapped;
-};
-
-/// Frames 0 .. frames-1 with these knobs: textures and display first, then for each frame its list(s), the
-/// GP1 word that shows it, and a VSync packet. Replayed on zeroed VRAM it gives what drawing the same frames
-/// gives, but for what `snapped` says. `frame_done` is called after each. Error: a frame that does not fit
-/// into RAM.
-base::Result<Recording> record(const scene::Scene& scene, std::uint32_t frames, const scene::Knobs& knobs,
-                               scene::Annotate annotate, const std::function<void()>& frame_done = {});
+/// Adds frames 0 .. frames-1 with these knobs to a dump: textures and display first, then for each frame its
+/// list(s), the GP1 word that shows it, and a VSync packet. Replayed on zeroed VRAM it gives what drawing the
+/// same frames gives, but for what the value says. `frame_done` is called after each; false ends the
+/// recording there. Error: a frame that does not fit into RAM.
+base::Result<SnapCost> record(const scene::Scene& scene, std::uint32_t frames, const scene::Knobs& knobs,
+                              scene::Annotate annotate, dump::DumpWriter& dump,
+                              const std::function<bool()>& frame_done = {});
 
 }  // namespace app

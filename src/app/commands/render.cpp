@@ -5,14 +5,17 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
 #include "app/viewer.h"
+#include "base/message.h"
 #include "demos/demos.h"
 #include "display/png.h"
 
@@ -31,15 +34,29 @@ base::Result<void> render_one(scene::Scene scene, const Options& options,
                               const std::filesystem::path& output) {
   const std::string name = scene.name;
   Viewer machine(std::move(scene), options.knobs);
-  for (const auto& line : machine.report())
-    std::fprintf(stderr, "otter: %s: %s\n", name.c_str(), line.c_str());
+  for (const auto& line : machine.report()) base::warn("otter: " + name, line);
+  std::optional<Interrupt> interrupt;  // nothing but the search of bsp looks whether it was asked
+  std::optional<Progress> search;
+  if (options.knobs.visibility == scene::Visibility::bsp) {
+    interrupt.emplace();
+    search.emplace("order", 1000);
+    machine.set_keep_going([&search](double done) {
+      search->at(static_cast<std::size_t>(done * 1000));
+      return !Interrupt::was_asked();
+    });
+  }
   const auto stats = machine.draw(options.frame, options.knobs);
   if (!stats) return tl::make_unexpected(stats.error());
   const auto picture = machine.picture();
   if (auto written = display::write_png(output, picture); !written) return written;
   std::printf("%s: %s frame %lld, %dx%d, %u primitives; GTE %.2f ms, OT %.2f ms, raster %.2f ms\n",
-              output.c_str(), name.c_str(), static_cast<long long>(options.frame), picture.width,
-              picture.height, stats->primitives, stats->gte_ms, stats->ot_ms, stats->raster_ms);
+              base::printable(output.string()).c_str(), base::printable(name).c_str(),
+              static_cast<long long>(options.frame), picture.width, picture.height, stats->primitives,
+              stats->gte_ms, stats->ot_ms, stats->raster_ms);
+  if (stats->was_stopped) {
+    return base::fail("interrupted: " + output.string() + " shows an order that is not finished",
+                      base::Exit::interrupted);
+  }
   return {};
 }
 

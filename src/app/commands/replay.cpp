@@ -11,7 +11,10 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/progress.h"
 #include "app/commands/without_depth.h"
+#include "base/message.h"
 #include "base/write_file.h"
 #include "display/png.h"
 #include "display/scanout.h"
@@ -74,16 +77,18 @@ base::Result<void> save(const Options& options, const gpu::Gpu& gpu,
     if (auto written = display::write_png(options.output, picture); !written) return written;
   }
   if (options.readback.empty()) return {};
-  std::vector<std::byte> bytes;
-  for (const auto word : readback) {
-    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(static_cast<std::byte>(word >> shift & 0xff));
-  }
-  return base::write_file(options.readback, bytes);
+  return base::write_file(options.readback, [&](std::FILE* file) -> base::Result<void> {
+    for (const auto word : readback) {
+      for (int shift = 0; shift < 32; shift += 8) std::putc(static_cast<int>(word >> shift & 0xff), file);
+    }
+    return {};
+  });
 }
 
 void print_summary(const std::string& name, const dump::Dump& dump) {
-  std::printf("%s: %s, %zu packets, %llu VSyncs, %llu drawing commands\n", name.c_str(),
-              dump.format == dump::DumpFormat::v1 ? "v1" : "v1r1", dump.packets.size(),
+  std::printf("%s: %s, %llu packets, %llu VSyncs, %llu drawing commands\n", base::printable(name).c_str(),
+              dump.format == dump::DumpFormat::v1 ? "v1" : "v1r1",
+              static_cast<unsigned long long>(dump.packets.size() + dump.empty_packets),
               static_cast<unsigned long long>(dump.vsyncs),
               static_cast<unsigned long long>(dump.drawing_commands));
 }
@@ -100,7 +105,7 @@ base::Result<int> replay(const Options& options) {
   if (!dump) return tl::make_unexpected(dump.error());
   if (auto checked = check(options, *dump); !checked) return tl::make_unexpected(checked.error());
   if (dump->gpu_version == 3) {
-    std::fprintf(stderr, "otter replay: %s: made for 2 MB of VRAM, drawn with 1 MB\n", options.dump.c_str());
+    base::warn("otter replay", options.dump + ": made for 2 MB of VRAM, drawn with 1 MB");
   }
 
   dump::ReplayOptions limits{.frame = options.frame, .until = options.until};
@@ -113,11 +118,21 @@ base::Result<int> replay(const Options& options) {
   gpu::Gpu gpu;
   gpu.set_depth(scene::depth_options(options.knobs));
   limits.readback = options.readback.empty() ? nullptr : &readback;
+  const Interrupt interrupt;
+  Progress progress("replay", dump->words.size());
+  limits.keep_going = [&](std::uint64_t words) {
+    progress.at(words);
+    return !interrupt.was_asked();
+  };
   const auto end = dump::replay(*dump, gpu, limits);
   if (auto judged = judge_without_depth(options.dump, options.knobs, end); !judged)
     return tl::make_unexpected(judged.error());
   if (auto saved = save(options, gpu, readback); !saved) return tl::make_unexpected(saved.error());
+  if (interrupt.was_asked()) {
+    return base::fail("interrupted: what was drawn until then is written", base::Exit::interrupted);
+  }
   limits.readback = nullptr;
+  limits.keep_going = {};
   if (options.repeat > 0) {
     std::printf("ns_per_replay %llu\n", static_cast<unsigned long long>(
                                             best_nanoseconds(*dump, limits, options.knobs, options.repeat)));

@@ -13,7 +13,10 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/interrupt.h"
+#include "app/commands/progress.h"
 #include "app/commands/without_depth.h"
+#include "base/message.h"
 #include "base/read_file.h"
 #include "display/vram_file.h"
 #include "gpu/depth.h"
@@ -129,7 +132,7 @@ void print_lint(const std::vector<inspect::LintItem>& items) {
 
 /// Draws a list that is known to be good. There is no drawing area before the first
 /// list sets one: all of VRAM.
-gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head,
+gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head, std::uint32_t all_nodes,
                    const std::optional<inspect::TableRange>& table, bool by_bucket, gpu::Gpu& gpu,
                    gpu::Trace& trace, Buckets& buckets) {
   std::array<std::uint32_t, 2> area{};
@@ -138,7 +141,11 @@ gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head,
   gpu.set_trace(&trace);
   gpu.begin_frame();
   if (table) buckets.packets.resize(table->length);
+  std::uint32_t nodes = 0;
+  Progress progress("walk", all_nodes);
   ot::walk(ram, head, [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
+    progress.at(++nodes);
+    if (Interrupt::was_asked() || trace.is_full) return;
     const auto at = tag & (ram.size_bytes() - 4);
     if (table && at >= table->address && (at - table->address) / 4 < table->length) {
       trace.bucket = (at - table->address) / 4;
@@ -176,17 +183,18 @@ base::Result<int> walk(const Options& options) {
 
   auto lint = inspect::lint_list(*ram, *head, *table);
   const auto walked = ot::validate(*ram, *head);
-  std::printf("%s: %u tags, %u words\n", options.image.c_str(), walked.nodes, walked.words);
+  std::printf("%s: %u tags, %u words\n", base::printable(options.image).c_str(), walked.nodes, walked.words);
   if (!walked) {
     print_lint(lint);
     return base::fail(options.image + ": " + walked.message());
   }
   gpu.set_depth(scene::depth_options(options.knobs));
   gpu::Trace trace;
-  trace.keep_history = true;
   Buckets buckets;
-  const auto end = draw(*ram, *head, *table, options.knobs.without_depth == scene::WithoutDepth::bucket, gpu,
-                        trace, buckets);
+  const Interrupt interrupt;
+  const auto end = draw(*ram, *head, walked.nodes, *table,
+                        options.knobs.without_depth == scene::WithoutDepth::bucket, gpu, trace, buckets);
+  if (trace.is_full) return base::fail(options.image + ": " + trace.limit_text());
   std::printf("drawing commands: %zu\n", trace.draws.size());
   if (*table) buckets.print();
   if (const auto unsorted = buckets.order()) lint.push_back(*unsorted);
@@ -197,6 +205,9 @@ base::Result<int> walk(const Options& options) {
   if (!options.vram.empty()) {
     if (auto saved = display::save_vram(options.vram, gpu.vram()); !saved)
       return tl::make_unexpected(saved.error());
+  }
+  if (interrupt.was_asked()) {
+    return base::fail("interrupted: what was drawn until then is told and written", base::Exit::interrupted);
   }
   return 0;
 }

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <utility>
 
+#include "base/message.h"
 #include "display/compare.h"
 
 namespace app {
@@ -34,8 +35,7 @@ base::Result<void> Show::change_scene(const WindowState& state) {
   name_ = entry.name;
   other_.reset();
   shown_ = std::make_unique<Viewer>(std::move(*scene), state.knobs);
-  for (const auto& line : shown_->report())
-    std::fprintf(stderr, "otter: %s: %s\n", name_.c_str(), line.c_str());
+  for (const auto& line : shown_->report()) base::warn("otter: " + name_, line);
   stats_ = {};
   return {};
 }

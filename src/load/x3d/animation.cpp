@@ -273,7 +273,7 @@ Animation read_animation(Context& context, const pugi::xml_node& root, const Tar
   each_element(root, [&](const pugi::xml_node& node) {
     const std::string_view name = node.name();
     if (name == "ROUTE") routes.push_back(node);
-    if (node.attribute("USE")) return;
+    if (context.attribute(node, "USE")) return;
     if (name == "TimeSensor") {
       clocks[node] = static_cast<std::uint32_t>(animation.clocks.size());
       animation.clocks.push_back(read_clock(context, node));
@@ -288,17 +288,19 @@ Animation read_animation(Context& context, const pugi::xml_node& root, const Tar
   });
 
   const auto left_out = [&](const pugi::xml_node& route) {
-    context.warn(route, "ROUTE from " + in_quotes(route.attribute("fromNode").value()) + " to " +
-                            in_quotes(route.attribute("toNode").value()) + " " +
-                            in_quotes(route.attribute("toField").value()) + " is not supported and left out");
+    context.warn(route, "ROUTE from " + in_quotes(context.attribute(route, "fromNode").value()) + " to " +
+                            in_quotes(context.attribute(route, "toNode").value()) + " " +
+                            in_quotes(context.attribute(route, "toField").value()) +
+                            " is not supported and left out");
   };
   // A clock drives a track; a track sets a field.
   for (const pugi::xml_node& route : routes) {
-    const auto clock = clocks.find(context.named(route.attribute("fromNode").value()));
+    const auto clock = clocks.find(context.named(context.attribute(route, "fromNode").value()));
     if (clock == clocks.end()) continue;
-    const auto track = tracks.find(context.named(route.attribute("toNode").value()));
-    const bool is_fraction = field_name(route.attribute("fromField"), "", "_changed") == "fraction" &&
-                             field_name(route.attribute("toField"), "set_", "") == "fraction";
+    const auto track = tracks.find(context.named(context.attribute(route, "toNode").value()));
+    const bool is_fraction =
+        field_name(context.attribute(route, "fromField"), "", "_changed") == "fraction" &&
+        field_name(context.attribute(route, "toField"), "set_", "") == "fraction";
     if (track == tracks.end() || !is_fraction) {
       left_out(route);
     } else {
@@ -306,17 +308,18 @@ Animation read_animation(Context& context, const pugi::xml_node& root, const Tar
     }
   }
   for (const pugi::xml_node& route : routes) {
-    const pugi::xml_node from = context.named(route.attribute("fromNode").value());
-    const pugi::xml_node to = context.named(route.attribute("toNode").value());
+    const pugi::xml_node from = context.named(context.attribute(route, "fromNode").value());
+    const pugi::xml_node to = context.named(context.attribute(route, "toNode").value());
     if (!from || !to) {
       const char* missing = from ? "toNode" : "fromNode";
       context.warn(route, std::string("ROUTE: ") + missing + " " +
-                              in_quotes(route.attribute(missing).value()) + " names no DEF; left out");
+                              in_quotes(context.attribute(route, missing).value()) +
+                              " names no DEF; left out");
       continue;
     }
     if (clocks.contains(from)) continue;
     const auto track = tracks.find(from);
-    const std::string_view field = field_name(route.attribute("toField"), "set_", "_changed");
+    const std::string_view field = field_name(context.attribute(route, "toField"), "set_", "_changed");
     const auto* goal = std::find_if(goals.begin(), goals.end(),
                                     [&](const Goal& g) { return g.node == to.name() && g.field == field; });
     const auto transform = targets.transforms.find(to);

@@ -57,8 +57,33 @@ pugi::xml_node Context::named(const char* name) const {
   return found == names_.end() ? pugi::xml_node() : found->second;
 }
 
+bool Context::look(const pugi::xml_node& at, std::size_t count) {
+  return spend(at, looks_left_, count, "100,000,000 looks at nodes and attributes, each USE counted");
+}
+
+pugi::xml_attribute Context::attribute(const pugi::xml_node& node, const char* name) {
+  std::size_t looked = 0;
+  pugi::xml_attribute found;
+  for (const pugi::xml_attribute& a : node.attributes()) {
+    ++looked;
+    if (std::strcmp(a.name(), name) == 0) {
+      found = a;
+      break;
+    }
+  }
+  return look(node, looked) ? found : pugi::xml_attribute();
+}
+
+pugi::xml_node Context::direct_child(const pugi::xml_node& node, const char* name) {
+  for (const pugi::xml_node& child : node.children()) {
+    if (!look(node)) break;
+    if (std::strcmp(child.name(), name) == 0) return child;
+  }
+  return {};
+}
+
 pugi::xml_node Context::resolve(const pugi::xml_node& node) {
-  const pugi::xml_attribute use = node.attribute("USE");
+  const pugi::xml_attribute use = attribute(node, "USE");
   if (!use) return node;
   const pugi::xml_node meant = named(use.value());
   if (!meant) {
@@ -71,12 +96,13 @@ pugi::xml_node Context::resolve(const pugi::xml_node& node) {
 }
 
 pugi::xml_node Context::child(const pugi::xml_node& node, const char* name) {
-  const pugi::xml_node found = node.child(name);
+  const pugi::xml_node found = direct_child(node, name);
   return found ? resolve(found) : found;
 }
 
 bool Context::flag(const pugi::xml_node& node, const char* field, bool otherwise) {
-  std::string_view text = node.attribute(field).value();
+  std::string_view text = attribute(node, field).value();
+  if (!look(node, text.size() / 8)) return otherwise;
   const std::string_view token = next_token(text, separators);
   if (token.empty()) return otherwise;
   if (token == "true" || token == "TRUE") return true;
@@ -88,7 +114,8 @@ bool Context::flag(const pugi::xml_node& node, const char* field, bool otherwise
 std::vector<float> Context::floats(const pugi::xml_node& node, const char* field) {
   std::vector<float> values;
   if (error_) return values;
-  std::string_view rest = node.attribute(field).value();
+  std::string_view rest = attribute(node, field).value();
+  if (!look(node, rest.size() / 8)) return {};
   for (std::string_view token; !(token = next_token(rest, separators)).empty();) {
     const auto value = number(token);
     if (!value) {
@@ -104,7 +131,8 @@ std::vector<float> Context::floats(const pugi::xml_node& node, const char* field
 std::vector<std::int32_t> Context::wholes(const pugi::xml_node& node, const char* field) {
   std::vector<std::int32_t> values;
   if (error_) return values;
-  std::string_view rest = node.attribute(field).value();
+  std::string_view rest = attribute(node, field).value();
+  if (!look(node, rest.size() / 8)) return {};
   for (std::string_view token; !(token = next_token(rest, separators)).empty();) {
     const auto value = whole(token);
     if (!value) {
@@ -151,8 +179,9 @@ std::vector<glm::vec3> Context::triples(const pugi::xml_node& node, const char* 
 }
 
 std::vector<std::string> Context::strings(const pugi::xml_node& node, const char* field) {
-  const std::string_view text = node.attribute(field).value();
+  const std::string_view text = attribute(node, field).value();
   std::vector<std::string> out;
+  if (!look(node, text.size() / 8)) return out;
   for (std::size_t at = text.find('"'); at != text.npos; at = text.find('"', at)) {
     const std::size_t end = text.find('"', at + 1);
     if (end == text.npos) break;

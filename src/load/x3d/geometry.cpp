@@ -40,6 +40,7 @@ bool read_lists(Context& context, const xml_node& node, Polygons& p) {
   static constexpr std::array known{"Coordinate", "CoordinateDouble",  "Color",
                                     "ColorRGBA",  "TextureCoordinate", "Normal"};
   for (const xml_node& child : node.children()) {
+    if (!context.look(node)) return false;
     const auto is = [&](const char* name) { return std::string_view(child.name()) == name; };
     if (is_element(child) && !is_silent(child) && std::none_of(known.begin(), known.end(), is))
       context.unsupported(child);
@@ -319,7 +320,7 @@ bool read_polygons(Context& context, const xml_node& node, const Look& look, Mes
 
 std::optional<Geometry> read_geometry(Context& context, const xml_node& node, const Look& look) {
   Geometry geometry;
-  if (node.attribute("solid")) {
+  if (context.attribute(node, "solid")) {
     geometry.sides = context.flag(node, "solid", true) ? Geometry::Sides::front : Geometry::Sides::both;
   }
   if (read_solid(context, node, look, geometry.mesh) || read_polygons(context, node, look, geometry.mesh) ||

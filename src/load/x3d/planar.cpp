@@ -123,7 +123,7 @@ void open_arc(Context& context, const xml_node& node, Drawing& drawing) {
 }
 void closed_arc(Context& context, const xml_node& node, Drawing& drawing) {
   std::vector<glm::vec3> points = arc(read_sweep(context, node), context.scalar(node, "radius", 1));
-  const std::vector<std::string> closure = Context::strings(node, "closureType");
+  const std::vector<std::string> closure = context.strings(node, "closureType");
   if (closure.empty() || closure[0] != "CHORD") points.emplace_back(0);
   const auto corners = static_cast<std::uint32_t>(points.size());
   drawing.fill(std::move(points), corners);
@@ -163,7 +163,7 @@ bool read_2d(Context& context, const xml_node& node, const Look& look, Geometry&
   Drawing drawing(context, node, unlit, geometry);
   kind->draw(context, node, drawing);
   geometry.is_2d = true;
-  if (!node.attribute("solid")) geometry.sides = Geometry::Sides::both;
+  if (!context.attribute(node, "solid")) geometry.sides = Geometry::Sides::both;
   return true;
 }
 

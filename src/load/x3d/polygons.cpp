@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <glm/geometric.hpp>
-#include <unordered_map>
 
+#include "load/distinct.h"
 #include "load/faces.h"
 #include "load/text.h"
 #include "load/x3d/x3d.h"
@@ -85,28 +85,30 @@ void make_uvs(Polygons& p) {
   for (Corner& c : p.corners) c.uv = c.point;
 }
 
-// A vertex of the mesh for each point and normal that occur together.
-class Vertices {
- public:
-  Vertices(const Polygons& p, Mesh& mesh) : p_(p), mesh_(mesh) {
-    if (p.normals.empty()) mesh.positions = p.points;
-  }
-  std::uint32_t of(const Corner& c) {
-    if (p_.normals.empty()) return c.point;
-    const std::uint64_t key = std::uint64_t{c.normal} << 32U | c.point;
-    const auto [entry, is_new] = known_.try_emplace(key, static_cast<std::uint32_t>(mesh_.positions.size()));
-    if (is_new) {
-      mesh_.positions.push_back(p_.points[c.point]);
-      mesh_.normals.push_back(c.normal == none ? glm::vec3(0, 0, 1) : p_.normals[c.normal]);
+// Puts a vertex into the mesh for each point and normal that occur together. Until then the vertices of the
+// faces from `first_face` on are numbers of corners in `used`.
+void add_vertices(const Polygons& p, const std::vector<Corner>& used, std::size_t first_face, Mesh& mesh) {
+  if (p.normals.empty()) {
+    mesh.positions = p.points;
+    for (std::size_t f = first_face; f < mesh.faces.size(); ++f) {
+      for (std::uint32_t& v : mesh.faces[f].vertex) v = v == none ? none : used[v].point;
     }
-    return entry->second;
+    return;
   }
-
- private:
-  const Polygons& p_;
-  Mesh& mesh_;
-  std::unordered_map<std::uint64_t, std::uint32_t> known_;
-};
+  std::vector<std::uint64_t> keys;
+  keys.reserve(used.size());
+  for (const Corner& c : used) keys.push_back(std::uint64_t{c.normal} << 32U | c.point);
+  const Distinct vertices = number_distinct(keys);
+  const auto before = static_cast<std::uint32_t>(mesh.positions.size());
+  for (const std::uint32_t first : vertices.first) {
+    const Corner& c = used[first];
+    mesh.positions.push_back(p.points[c.point]);
+    mesh.normals.push_back(c.normal == none ? glm::vec3(0, 0, 1) : p.normals[c.normal]);
+  }
+  for (std::size_t f = first_face; f < mesh.faces.size(); ++f) {
+    for (std::uint32_t& v : mesh.faces[f].vertex) v = v == none ? none : before + vertices.number[v];
+  }
+}
 
 }  // namespace
 
@@ -128,7 +130,8 @@ void add_polygons(Context& context, const pugi::xml_node& node, Polygons& p, con
   if (look.material.texture != none && p.uvs.empty()) make_uvs(p);
   if (!look.material.lit) p.normals.clear();
   if (look.material.lit && p.normals.empty() && p.crease >= 0) make_normals(p);
-  Vertices vertices(p, mesh);
+  std::vector<Corner> used;
+  const std::size_t first_face = mesh.faces.size();
   std::vector<glm::vec3> polygon;
   std::vector<Piece> pieces;
   std::size_t first = 0;
@@ -142,7 +145,8 @@ void add_polygons(Context& context, const pugi::xml_node& node, Polygons& p, con
       Face face;
       for (std::size_t i = 0; i < 4 && piece[i] != none; ++i) {
         const Corner& c = p.corners[first + piece[i]];
-        face.vertex[i] = vertices.of(c);
+        face.vertex[i] = static_cast<std::uint32_t>(used.size());
+        used.push_back(c);
         if (c.uv != none) face.uv[i] = look.picture_position(p.uvs[c.uv]);
         face.colour[i] = look.stored(c.colour == none ? look.colour : p.colours[c.colour]);
       }
@@ -150,6 +154,7 @@ void add_polygons(Context& context, const pugi::xml_node& node, Polygons& p, con
     }
     first += count;
   }
+  add_vertices(p, used, first_face, mesh);
 }
 
 }  // namespace load::x3d

@@ -22,7 +22,7 @@ glm::vec3 saturated(const glm::vec3& rgb) { return glm::clamp(rgb, 0.0F, 1.0F); 
 class Reader {
  public:
   Reader(Context& context, const Source& source, LoadedScene& out)
-      : context_(context), out_(out), pictures_(source, out.scene.world, out.warnings) {
+      : context_(context), out_(out), pictures_(source, out) {
     world().materials.clear();
   }
 
@@ -31,11 +31,8 @@ class Reader {
     walk_children(scene, 0);
     if (context_.error()) return;
     is_lit_ = layout_.has_headlight || !layout_.lights.empty();
-    layout_.is_mirrored =
-        !shapes_.empty() && std::all_of(shapes_.begin(), shapes_.end(), [&](const Shape& s) {
-          return std::any_of(s.node.begin(), s.node.end(),
-                             [](const xml_node& n) { return is_2d_node(n.name()); });
-        });
+    layout_.is_mirrored = !shapes_.empty() && std::all_of(shapes_.begin(), shapes_.end(),
+                                                          [&](const Shape& s) { return is_flat(s.node); });
     for (const Shape& shape : shapes_) place_shape(shape);
     targets_.view = view_;
     animation_ = read_animation(context_, root, targets_);
@@ -48,15 +45,37 @@ class Reader {
     xml_node node;
     std::uint32_t place;
   };
+  struct MaterialFields {
+    float transparency = 0;
+    glm::vec3 diffuse{0.8F}, emissive{0.0F};
+  };
   World& world() { return out_.scene.world; }
 
   // ---- the tree
 
   void walk_children(const xml_node& node, std::uint32_t place) {
+    if (uses_open_ > 0) {
+      for (const xml_node& child : drawn_children(node)) {
+        if (context_.error()) return;
+        walk(child, place);
+      }
+      return;
+    }
     for (const xml_node& child : node.children()) {
-      if (context_.error()) return;
+      if (!context_.look(node)) return;
       if (is_element(child)) walk(child, place);
     }
+  }
+  // Of a node that is used, and so perhaps often: what is silent is left out once and for all.
+  const std::vector<xml_node>& drawn_children(const xml_node& node) {
+    const auto [known, is_new] = children_.try_emplace(node);
+    if (is_new) {
+      for (const xml_node& child : node.children()) {
+        if (!context_.look(node)) break;
+        if (is_element(child) && !is_silent(child)) known->second.push_back(child);
+      }
+    }
+    return known->second;
   }
 
   void walk(const xml_node& given, std::uint32_t place) {
@@ -69,7 +88,9 @@ class Reader {
     }
     if (open_.size() >= limits::depth) return context_.fail(node, "nested deeper than the limit of 128");
     open_.push_back(node);
+    uses_open_ += node != given ? 1 : 0;
     visit(node, place);
+    uses_open_ -= node != given ? 1 : 0;
     open_.pop_back();
   }
 
@@ -97,6 +118,17 @@ class Reader {
     }
   }
 
+  // Some child of the Shape is a 2D node.
+  bool is_flat(const xml_node& shape) {
+    const auto [known, is_new] = flat_.try_emplace(shape, false);
+    if (is_new) {
+      known->second = std::any_of(shape.begin(), shape.end(), [&](const xml_node& n) {
+        return context_.look(shape) && is_2d_node(n.name());
+      });
+    }
+    return known->second;
+  }
+
   std::uint32_t transformed(const xml_node& node, std::uint32_t place) {
     const auto [entry, is_new] =
         targets_.transforms.try_emplace(node, static_cast<std::uint32_t>(fields_.transforms.size()));
@@ -112,11 +144,18 @@ class Reader {
   }
 
   void choose(const xml_node& node, std::uint32_t place) {
+    const auto [chosen, is_new] = chosen_.try_emplace(node);
+    if (is_new) chosen->second = choice(node);
+    if (chosen->second) walk(chosen->second, place);
+  }
+  xml_node choice(const xml_node& node) {
     const std::vector<std::int32_t> which = context_.wholes(node, "whichChoice");
     std::int32_t left = which.empty() ? -1 : which[0];
     for (const xml_node& child : node.children()) {
-      if (is_element(child) && !is_silent(child) && left-- == 0) return walk(child, place);
+      if (!context_.look(node)) break;
+      if (is_element(child) && !is_silent(child) && left-- == 0) return child;
     }
+    return {};
   }
 
   void viewpoint(const xml_node& node, std::uint32_t place) {
@@ -132,15 +171,26 @@ class Reader {
   }
 
   void light(const xml_node& node, std::uint32_t place) {
-    if (!context_.flag(node, "on", true)) return;
-    targets_.lights.try_emplace(node, static_cast<std::uint32_t>(fields_.lights.size()));
+    // A light that is used again shines again, as its first one says.
+    if (const auto known = targets_.lights.find(node); known != targets_.lights.end()) {
+      fields_.lights.push_back(fields_.lights[known->second]);
+      layout_.lights.push_back(place);
+      world().ambient = saturated(world().ambient + ambient_of_[node]);
+      return;
+    }
+    if (dark_.contains(node)) return;
+    if (!context_.flag(node, "on", true)) {
+      dark_.insert(node);
+      return;
+    }
+    targets_.lights.emplace(node, static_cast<std::uint32_t>(fields_.lights.size()));
     const glm::vec3 colour = context_.vector(node, "color", glm::vec3(1));
     const float intensity = context_.scalar(node, "intensity", 1);
     fields_.lights.push_back({context_.vector(node, "direction", {0, 0, -1}), colour, intensity});
     layout_.lights.push_back(place);
     // Material's ambientIntensity is 0.2 of its colour unless it says otherwise; the console has one for all.
-    world().ambient =
-        saturated(world().ambient + 0.2F * context_.scalar(node, "ambientIntensity", 0) * colour);
+    ambient_of_[node] = 0.2F * context_.scalar(node, "ambientIntensity", 0) * colour;
+    world().ambient = saturated(world().ambient + ambient_of_[node]);
   }
 
   void background(const xml_node& node) {
@@ -148,7 +198,7 @@ class Reader {
     has_background_ = true;
     const std::vector<glm::vec3> sky = context_.triples(node, "skyColor");
     if (!sky.empty()) world().background = Look{}.stored(sky[0]);
-    if (sky.size() > 1 || node.attribute("groundColor") || node.attribute("backUrl")) {
+    if (sky.size() > 1 || context_.attribute(node, "groundColor") || context_.attribute(node, "backUrl")) {
       context_.warn(node, "Background: only the first sky colour is drawn");
     }
   }
@@ -157,6 +207,7 @@ class Reader {
 
   xml_node texture_node(const xml_node& appearance) {
     for (const xml_node& child : appearance.children()) {
+      if (!context_.look(appearance)) break;
       const std::string_view name = child.name();
       if (!is_element(child) || is_silent(child) || name == "Material" || name == "UnlitMaterial" ||
           name == "ImageTexture" || name == "TextureTransform") {
@@ -170,7 +221,7 @@ class Reader {
   void wear_picture(const xml_node& node, Look& look) {
     if (!node) return;
     const bool repeats = context_.flag(node, "repeatS", true) || context_.flag(node, "repeatT", true);
-    const std::vector<std::string> urls = Context::strings(node, "url");
+    const std::vector<std::string> urls = context_.strings(node, "url");
     if (urls.empty()) context_.warn(node, "ImageTexture has no url");
     for (const std::string& url : urls) {
       if (url.find("://") != url.npos) {
@@ -204,22 +255,41 @@ class Reader {
     Look look;
     const xml_node appearance = context_.child(shape, "Appearance");
     if (!appearance) return look;
+    const auto [known, is_new] = appearances_.try_emplace({appearance, has_colours});
+    if (is_new) known->second = read_appearance(appearance, has_colours);
+    return known->second;
+  }
+
+  Look read_appearance(const xml_node& appearance, bool has_colours) {
+    Look look;
     const xml_node material = context_.child(appearance, "Material");
     const xml_node unlit = context_.child(appearance, "UnlitMaterial");
     const xml_node any = material ? material : unlit;
-    const float transparency = any ? context_.scalar(any, "transparency", 0) : 0;
+    const float transparency = any ? material_fields(any).transparency : 0;
     look.is_invisible = transparency >= 1;
     look.material.blend = transparency > 0 ? Blend::average : Blend::opaque;
     wear_picture(texture_node(appearance), look);
     move_picture(context_.child(appearance, "TextureTransform"), look);
-    if (unlit) look.colour = look.line_colour = context_.vector(unlit, "emissiveColor", glm::vec3(1));
+    if (unlit) look.colour = look.line_colour = material_fields(unlit).emissive;
     if (material) light_up(material, has_colours, look);
     return look;
   }
 
+  // Read once, however many appearances use the material.
+  const MaterialFields& material_fields(const xml_node& node) {
+    const auto [known, is_new] = material_fields_.try_emplace(node);
+    if (is_new) {
+      const bool is_unlit = std::string_view(node.name()) == "UnlitMaterial";
+      known->second = {context_.scalar(node, "transparency", 0),
+                       is_unlit ? glm::vec3(1) : context_.vector(node, "diffuseColor", glm::vec3(0.8F)),
+                       context_.vector(node, "emissiveColor", glm::vec3(is_unlit ? 1.0F : 0.0F))};
+    }
+    return known->second;
+  }
+
   void light_up(const xml_node& material, bool has_colours, Look& look) {
-    const glm::vec3 diffuse = saturated(context_.vector(material, "diffuseColor", glm::vec3(0.8F)));
-    const glm::vec3 emissive = saturated(context_.vector(material, "emissiveColor", glm::vec3(0)));
+    const glm::vec3 diffuse = saturated(material_fields(material).diffuse);
+    const glm::vec3 emissive = saturated(material_fields(material).emissive);
     const bool is_replaced =
         has_colours || look.material.texture != none;  // these stand for the diffuse colour
     look.line_colour = emissive == glm::vec3(0) ? diffuse : emissive;
@@ -246,8 +316,11 @@ class Reader {
     if (is_new) known->second = read_shape(shape.node);
     if (known->second == none || context_.error()) return;
     const Mesh& mesh = world().meshes[known->second];
-    if (!is_new && !context_.spend(shape.node, context_.faces_left, mesh.faces.size() + mesh.lines.size(),
-                                   "1,000,000 faces, each USE counted")) {
+    // Drawn again, it costs again.
+    if (!is_new && (!context_.spend(shape.node, context_.faces_left, mesh.faces.size() + mesh.lines.size(),
+                                    "1,000,000 faces, each USE counted") ||
+                    !context_.spend(shape.node, context_.vertices_left, mesh.positions.size(),
+                                    "4,000,000 vertices, each USE counted"))) {
       return;
     }
     if (!context_.spend(shape.node, context_.instances_left, 1, "65,536 shapes")) return;
@@ -259,12 +332,14 @@ class Reader {
   std::uint32_t read_shape(const xml_node& shape) {
     xml_node geometry;
     for (const xml_node& child : shape.children()) {
+      if (!context_.look(shape)) return none;
       if (!is_element(child) || is_silent(child) || std::string_view(child.name()) == "Appearance") continue;
       geometry = context_.resolve(child);
       break;
     }
     if (!geometry) return none;
-    const bool has_colours = geometry.child("Color") || geometry.child("ColorRGBA");
+    const bool has_colours =
+        context_.direct_child(geometry, "Color") || context_.direct_child(geometry, "ColorRGBA");
     const Look look = read_look(shape, has_colours);
     if (look.is_invisible || context_.error()) return none;
     auto read = read_geometry(context_, geometry, look);
@@ -362,6 +437,14 @@ class Reader {
   std::vector<xml_node> open_;  // the nodes we are inside of
   std::vector<Shape> shapes_;
   std::map<xml_node, std::uint32_t> meshes_;
+  std::map<xml_node, std::vector<xml_node>> children_;  // of nodes that are used
+  std::size_t uses_open_ = 0;                           // USEs that we are inside of
+  std::map<xml_node, MaterialFields> material_fields_;
+  std::map<xml_node, xml_node> chosen_;  // of each Switch
+  std::map<xml_node, bool> flat_;        // Shapes with a 2D node
+  std::map<xml_node, glm::vec3> ambient_of_;
+  std::set<xml_node> dark_;                                // lights that are off
+  std::map<std::pair<xml_node, bool>, Look> appearances_;  // by node, and whether the geometry has colours
   std::map<std::tuple<std::uint32_t, Blend, bool, bool, float, float, float>, std::uint32_t> materials_;
   bool is_lit_ = false, has_navigation_ = false, has_background_ = false;
 };

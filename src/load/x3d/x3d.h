@@ -54,6 +54,15 @@ class Context {
   /// Names a node that is not read, each kind once.
   void unsupported(const pugi::xml_node& node);
 
+  /// What is looked at again and again has a price, so that no node that is used a thousand times and holds a
+  /// thousand things can stretch the time: false after an error, when 100 million looks are spent.
+  bool look(const pugi::xml_node& at, std::size_t count = 1);
+  pugi::xml_attribute attribute(const pugi::xml_node& node, const char* name);
+  /// The first child element of that kind as it stands; null if there is none.
+  pugi::xml_node direct_child(const pugi::xml_node& node, const char* name);
+  /// Looks spent: the work that was done on this file.
+  [[nodiscard]] std::size_t looks() const { return most_looks - looks_left_; }
+
   /// The node itself, or what its USE means; null with a warning if no DEF has that name.
   pugi::xml_node resolve(const pugi::xml_node& node);
   /// The first child element of that kind, USE resolved; null if there is none.
@@ -68,7 +77,7 @@ class Context {
   std::vector<glm::vec3> triples(const pugi::xml_node& node, const char* field);
   std::vector<std::int32_t> wholes(const pugi::xml_node& node, const char* field);
   /// The strings of an MFString; quotes may be left out if there is one.
-  static std::vector<std::string> strings(const pugi::xml_node& node, const char* field);
+  std::vector<std::string> strings(const pugi::xml_node& node, const char* field);
 
   /// Takes `count` off what is left of a budget; fails and returns false when it is not there.
   bool spend(const pugi::xml_node& at, std::size_t& budget, std::size_t count, const char* of_what);
@@ -89,6 +98,8 @@ class Context {
   std::map<std::string, pugi::xml_node, std::less<>> names_;
   std::optional<base::Error> error_;
   std::size_t numbers_left_ = 50'000'000;
+  static constexpr std::size_t most_looks = 100'000'000;
+  std::size_t looks_left_ = most_looks;
 };
 
 bool is_element(const pugi::xml_node& node);
