@@ -99,7 +99,8 @@ int run(int argc, char** argv) {
     const std::string name = &chosen(program) == &program ? "otter" : "otter " + chosen(program).get_name();
     return complain(name, app::one_line(error) + " (see " + name + " --help)", bad_usage);
   }
-  for (const auto& [sub, action] : actions) {
+  for (const auto& entry : actions) {
+    const CLI::App* sub = entry.first;
     if (!sub->parsed()) continue;
     const std::string name = "otter " + sub->get_name();
     const bool has_window = sub->get_name() == "run";
@@ -108,7 +109,7 @@ int run(int argc, char** argv) {
     if (has_window) std::signal(SIGPIPE, SIG_IGN);
     const auto status = app::guard_outputs(*sub).and_then([&] {
       const auto busy = has_window ? nullptr : std::make_unique<app::Busy>(name);
-      return action();
+      return entry.second();
     });
     if (!status) return complain(name, status.error().text, static_cast<int>(status.error().exit));
     return end_output(name, *status);

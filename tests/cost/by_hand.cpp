@@ -82,7 +82,9 @@ cost::Row row(const cost::Axis* axis, cost::Direction direction, const std::stri
 
 TEST_SUITE("cost") {
   TEST_CASE("SSIM is the published formula, on noise of every strength and on dark pictures") {
-    for (const auto& [low, high] : {std::pair{0, 255}, {100, 140}, {0, 6}, {250, 255}}) {
+    for (const auto& row : {std::pair{0, 255}, {100, 140}, {0, 6}, {250, 255}}) {
+      const auto low = row.first;
+      const auto high = row.second;
       for (std::uint32_t seed = 1; seed < 4; ++seed) {
         const auto a = noise(24, 20, seed, low, high), b = noise(24, 20, seed + 10, low, high);
         CHECK(cost::ssim(a, b) == doctest::Approx(reference_ssim(a, b)).epsilon(1e-9));
@@ -154,7 +156,9 @@ TEST_SUITE("cost") {
 
   TEST_CASE("Where the console's own error is within a twentieth of the best, nothing improves on it") {
     const auto* axis = cost::find_axis("texture");
-    for (const auto& [error, improves] : {std::pair{1.04, false}, {1.06, true}}) {
+    for (const auto& given : {std::pair{1.04, false}, {1.06, true}}) {
+      const auto error = given.first;
+      const auto improves = given.second;
       cost::SceneResult result;
       for (const auto direction : {cost::Direction::up, cost::Direction::down}) {
         result.rows.push_back(row(axis, direction, "console", 1, error, true));
@@ -167,19 +171,21 @@ TEST_SUITE("cost") {
   }
 
   TEST_CASE("Numbers have three digits, bytes their unit") {
-    for (const auto& [value, text] : std::vector<std::pair<double, std::string>>{{0, "0"},
-                                                                                 {1234.5, "1234"},
-                                                                                 {100, "100"},
-                                                                                 {99.94, "99.9"},
-                                                                                 {10, "10.0"},
-                                                                                 {9.994, "9.99"},
-                                                                                 {1, "1.00"},
-                                                                                 {0.9994, "0.999"},
-                                                                                 {0.1, "0.100"},
-                                                                                 {0.0994, "0.0994"},
-                                                                                 {0.01, "0.0100"},
-                                                                                 {0.00994, "0.00994"},
-                                                                                 {-12.34, "-12.3"}}) {
+    for (const auto& row : std::vector<std::pair<double, std::string>>{{0, "0"},
+                                                                       {1234.5, "1234"},
+                                                                       {100, "100"},
+                                                                       {99.94, "99.9"},
+                                                                       {10, "10.0"},
+                                                                       {9.994, "9.99"},
+                                                                       {1, "1.00"},
+                                                                       {0.9994, "0.999"},
+                                                                       {0.1, "0.100"},
+                                                                       {0.0994, "0.0994"},
+                                                                       {0.01, "0.0100"},
+                                                                       {0.00994, "0.00994"},
+                                                                       {-12.34, "-12.3"}}) {
+      const auto value = row.first;
+      const auto& text = row.second;
       CHECK(cost::number(value) == text);
     }
     CHECK(cost::number(NAN) == "0");

@@ -46,8 +46,9 @@ TEST_SUITE("gpu") {
   }
 
   TEST_CASE("GP1(00h) and GP1(02h) take the interrupt flag back, GP1(01h) does not") {
-    for (const auto& [word, stays] :
-         {std::pair{0x00000000U, false}, {0x01000000U, true}, {0x02000000U, false}}) {
+    for (const auto& row : {std::pair{0x00000000U, false}, {0x01000000U, true}, {0x02000000U, false}}) {
+      const std::uint32_t word = row.first;
+      const bool stays = row.second;
       gpu::Gpu gpu;
       gpu.gp0(0x1f000000);
       REQUIRE((gpu.status() & irq) != 0);
@@ -58,7 +59,9 @@ TEST_SUITE("gpu") {
   }
 
   TEST_CASE("The display may start in any of 512 rows and 1,024 columns") {
-    for (const auto& [x, y] : {std::pair{0U, 255U}, {0U, 256U}, {1023U, 511U}, {640U, 300U}}) {
+    for (const auto& row : {std::pair{0U, 255U}, {0U, 256U}, {1023U, 511U}, {640U, 300U}}) {
+      const auto x = row.first;
+      const auto y = row.second;
       gpu::Gpu gpu;
       gpu.gp1(0x05000000 | y << 10 | x);
       CHECK(gpu.display().start_x() == static_cast<int>(x));

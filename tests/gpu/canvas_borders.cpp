@@ -44,7 +44,9 @@ std::vector<std::uint32_t> area(int x, int y) {
 TEST_SUITE("canvas") {
   TEST_CASE("Lines on a canvas of whole pixels are the console's, flat and shaded, in every direction") {
     Random random(4);
-    for (const auto& [x, y] : {std::pair{0, 0}, {320, 200}, {960, 480}}) {
+    for (const auto& row : {std::pair{0, 0}, {320, 200}, {960, 480}}) {
+      const auto x = row.first;
+      const auto y = row.second;
       auto words = area(x, y);
       for (int n = 0; n < 60; ++n) {
         const auto at = [&] { return vertex_word(x + random.between(-20, 80), y + random.between(-20, 50)); };
@@ -69,7 +71,9 @@ TEST_SUITE("canvas") {
   }
 
   TEST_CASE("Fills, copies and uploads that wrap round VRAM's edges arrive on the canvas at both ends") {
-    for (const auto& [x, y] : {std::pair{0, 0}, {960, 480}}) {
+    for (const auto& row : {std::pair{0, 0}, {960, 480}}) {
+      const auto x = row.first;
+      const auto y = row.second;
       auto words = area(x, y);
       // From column 1008 on, and from row 504 on: the rest lies at 0.
       words.insert(words.end(), {0x02a040f8, 504U << 16 | 1008, 16U << 16 | 64});

@@ -156,9 +156,9 @@ typedef struct {
 #define addPrim(ot, p) otter_link((void*)(ot), (void*)(p), (void*)(p))
 #define addPrims(ot, first, last) otter_link((void*)(ot), (void*)(first), (void*)(last))
 
-#define setSemiTrans(p, on) ((on) ? (getcode(p) |= 2) : (getcode(p) &= 0xfd))
+#define setSemiTrans(p, on) (getcode(p) = (uint8_t)((on) ? getcode(p) | 2 : getcode(p) & 0xfd))
 #define setSemiTrans_T(p, on) ((on) ? (getcode_T(p) |= 2) : (getcode_T(p) &= 0xfd))
-#define setShadeTex(p, raw) ((raw) ? (getcode(p) |= 1) : (getcode(p) &= 0xfe))
+#define setShadeTex(p, raw) (getcode(p) = (uint8_t)((raw) ? getcode(p) | 1 : getcode(p) & 0xfe))
 #define setShadeTex_T(p, raw) ((raw) ? (getcode_T(p) |= 1) : (getcode_T(p) &= 0xfe))
 
 // ---- fields
