@@ -293,7 +293,7 @@ TEST_SUITE("door") {
     otter* g = gpu.get();
     REQUIRE(otter_set(g, "visibility", "zbuffer") == OTTER_OK);
     send(g, whole_area);
-    for (const std::size_t v : {1, 2, 3}) {
+    for (const std::size_t v : {1U, 2U, 3U}) {
       otter_vertex(g, near[v], 100 << 12, 0);
       otter_vertex(g, far[v], 200 << 12, 0);
     }

@@ -14,10 +14,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const load::Source source{"fuzz.obj", "/nonexistent"};
   (void)load::parse_obj(text.substr(0, cut), source);
   if (cut == std::string::npos) return 0;
-  scene::World world;
-  std::vector<std::string> warnings;
-  load::Pictures pictures(source, world, warnings);
-  std::map<std::string, scene::ObjMaterial, std::less<>> materials;
-  scene::parse_mtl(text.substr(cut), pictures, materials);
+  load::LoadedScene scene;
+  load::Pictures pictures(source, scene);
+  std::map<std::string, load::ObjMaterial, std::less<>> materials;
+  load::parse_mtl(text.substr(cut), pictures, materials);
   return 0;
 }
