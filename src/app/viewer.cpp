@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "gpu/canvas/canvas.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 
 namespace app {
 
@@ -24,7 +24,7 @@ Viewer::Viewer(scene::Scene scene, const scene::Knobs& knobs)
     first.camera = base_;
     pivot_distance_ = pivot_distance(first);
   }
-  report_ = machine_.builder(knobs).report();
+  builder_ = &machine_.builder(knobs);
 }
 
 scene::Scene Viewer::scene_as_given() const {
@@ -37,9 +37,8 @@ base::Result<scene::FrameStats> Viewer::draw(std::int64_t frame, const scene::Kn
                                              const CameraOffset& camera) {
   if (auto checked = scene::check_knobs(knobs); !checked) return tl::make_unexpected(checked.error());
   offset_ = camera;
-  auto& builder = machine_.builder(knobs);
-  builder.set_keep_going(keep_going_);
-  report_ = builder.report();
+  builder_ = &machine_.builder(knobs);
+  builder_->set_keep_going(keep_going_);
   const bool continues = frame == last_frame_ + 1 && knobs == last_knobs_;
   if (!continues) machine_.presenter().forget();
   const int before = continues ? 0 : machine::Presenter::frames_before(knobs);

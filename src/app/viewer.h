@@ -49,7 +49,7 @@ class Viewer {
   [[nodiscard]] std::vector<std::uint16_t> vram() const;
   /// The scene with its own animation: a second machine may be made from it.
   [[nodiscard]] scene::Scene scene_as_given() const;
-  [[nodiscard]] const std::vector<std::string>& report() const { return report_; }
+  [[nodiscard]] const std::vector<std::string>& report() const { return builder_->report(); }
   [[nodiscard]] const gpu::Gpu& gpu() const { return machine_.gpu(); }
 
  private:
@@ -62,7 +62,7 @@ class Viewer {
   std::int64_t last_frame_ = -1;  // drawn with last_knobs_
   scene::Knobs last_knobs_;
   machine::Machine machine_{scene_};
-  std::vector<std::string> report_;  // of the builder last used
+  scene::FrameBuilder* builder_;  // the machine's, last used
   std::function<bool(double)> keep_going_;
 };
 

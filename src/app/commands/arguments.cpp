@@ -132,24 +132,6 @@ base::Result<void> guard_inputs(std::span<const std::filesystem::path> files) {
   return base::check_outputs(outputs(), read);
 }
 
-void add_knobs(CLI::App& sub, scene::Knobs& knobs, std::initializer_list<std::string_view> names) {
-  for (const auto& knob : scene::knob_table()) {
-    if (names.size() != 0 && std::find(names.begin(), names.end(), knob.name) == names.end()) continue;
-    const std::string name(knob.name);
-    CLI::Option* option = nullptr;
-    if (knob.values == "off|on") {
-      option = sub.add_flag_callback(
-          "--" + name, [&knobs, name] { set_or_throw(knobs, name, "on"); }, std::string(knob.help));
-    } else {
-      option = sub.add_option_function<std::string>(
-          "--" + name, [&knobs, name](const std::string& value) { set_or_throw(knobs, name, value); },
-          std::string(knob.help) + " [" + knob.get(knobs) + "]");
-      option->type_name(std::string(knob.values))->take_last();
-    }
-    option->group("Knobs");
-  }
-}
-
 std::string one_line(const CLI::ParseError& error) {
   std::string text = error.what();
   std::replace(text.begin(), text.end(), '\n', ' ');

@@ -1,6 +1,6 @@
 #pragma once
-// The options of one subcommand. What the command-line library is used for stands in arguments.cpp and
-// main.cpp alone: its headers take longer to compile than any command.
+// The options of one subcommand. Commands see nothing of the command-line library: its headers take longer to
+// compile than any of them.
 
 #include <cstdint>
 #include <filesystem>
