@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/write_file.h"
+#include "ot/gp1.h"
 
 namespace door {
 
@@ -12,15 +13,17 @@ namespace {
 
 using dump::PacketType;
 
-/// GP1 words that bring a reset GPU to what is displayed. [psx-spx, GPU Display Control Commands]
+namespace gp1 = ot::gp1;
+
+/// GP1 words that bring a reset GPU to what is displayed.
 std::array<std::uint32_t, 6> display_words(const gpu::Gpu& gpu) {
   const gpu::Display& d = gpu.display();
-  return {0x00000000,
-          0x03000000U | (d.is_off ? 1U : 0U),
-          0x05000000 | d.start,
-          0x06000000 | d.horizontal_range,
-          0x07000000 | d.vertical_range,
-          0x08000000 | d.mode};
+  return {gp1::make(gp1::Command::reset),
+          gp1::display_off::make(d.is_off),
+          gp1::make(gp1::Command::display_start, d.start),
+          gp1::make(gp1::Command::horizontal_range, d.horizontal_range),
+          gp1::make(gp1::Command::vertical_range, d.vertical_range),
+          gp1::make(gp1::Command::display_mode, d.mode)};
 }
 
 std::array<std::uint32_t, 6> attribute_words(const gpu::DrawState& s) {
@@ -43,7 +46,8 @@ bool Recorder::catch_up(const gpu::Gpu& gpu) {
 void Recorder::put_state(const gpu::Gpu& gpu) {
   dump_.add(PacketType::port1, display_words(gpu));
   const bool may_disable_textures = (gpu.state().draw_mode >> 11 & 1) != 0;
-  const std::uint32_t permission = 0x09000000U | (may_disable_textures ? 1U : 0U);
+  const std::uint32_t permission =
+      gp1::make(gp1::Command::allow_texture_disable, may_disable_textures ? 1 : 0);
   dump_.add(PacketType::port1, std::span(&permission, 1));
   // Mask bits are off after the reset: the upload is taken as it is.
   std::vector<std::uint32_t> upload{0xa0000000, 0, gpu::Vram::height << 16 | gpu::Vram::width};
@@ -54,7 +58,7 @@ void Recorder::put_state(const gpu::Gpu& gpu) {
   dump_.add(PacketType::port0, attribute_words(gpu.state()));
   // The rows that an interlaced picture skips are those of its field.
   if (gpu.display().is_interlaced() && gpu.display().odd_field) dump_.add(PacketType::vsync);
-  const std::uint32_t direction = 0x04000000 | (gpu.status() >> 29 & 3);
+  const std::uint32_t direction = gp1::dma_direction::make(ot::gpu_status::DmaDirection::get(gpu.status()));
   dump_.add(PacketType::port1, std::span(&direction, 1));
 }
 
@@ -106,7 +110,7 @@ base::Result<void> Recorder::finish(const gpu::Gpu& gpu) {
   put_words();
   put_reads();
   // A dump ends between commands.
-  const std::uint32_t clear_fifo = 0x01000000;
+  const std::uint32_t clear_fifo = gp1::make(gp1::Command::clear_fifo);
   dump_.add(PacketType::port1, std::span(&clear_fifo, 1));
   return base::write_file(path_, dump::write_dump(dump_, dump::DumpFormat::standard));
 }

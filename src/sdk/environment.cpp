@@ -6,6 +6,7 @@
 #include <span>
 
 #include "ot/gp0.h"
+#include "ot/gp1.h"
 #include "sdk/console.h"
 #include "sdk/memory.h"
 
@@ -15,19 +16,6 @@ namespace {
 namespace gp0 = ot::gp0;
 
 GPU_VideoMode video_mode = MODE_NTSC;
-
-// GP1 commands. [psx-spx, GPU Display Control Commands (GP1)]
-enum Gp1 : std::uint32_t {
-  reset = 0x00000000,
-  reset_buffer = 0x01000000,
-  acknowledge = 0x02000000,
-  display_enable = 0x03000000,
-  dma_direction = 0x04000000,
-  display_start = 0x05000000,
-  horizontal_range = 0x06000000,
-  vertical_range = 0x07000000,
-  display_mode = 0x08000000,
-};
 
 std::uint32_t low_bits(int value, std::uint32_t mask) { return static_cast<std::uint32_t>(value) & mask; }
 
@@ -108,15 +96,17 @@ void put_environment(DRAWENV* env, CallSite site) {
 using sdk::Call;
 using sdk::the_console;
 
+namespace gp1 = ot::gp1;
+
 extern "C" {
 
 void ResetGraph(int mode) {
   const Call call;
   auto& feed = the_console().feed;
-  if (mode == 0) return feed.gp1(sdk::reset);
-  feed.gp1(sdk::reset_buffer);
-  feed.gp1(sdk::acknowledge);
-  feed.gp1(sdk::dma_direction);
+  if (mode == 0) return feed.gp1(gp1::make(gp1::Command::reset));
+  feed.gp1(gp1::make(gp1::Command::clear_fifo));
+  feed.gp1(gp1::make(gp1::Command::acknowledge_irq));
+  feed.gp1(gp1::make(gp1::Command::dma_direction));
 }
 
 GPU_VideoMode GetVideoMode(void) { return sdk::video_mode; }
@@ -124,7 +114,7 @@ void SetVideoMode(GPU_VideoMode mode) { sdk::video_mode = mode; }
 
 void SetDispMask(int mask) {
   const Call call;
-  the_console().feed.gp1(sdk::display_enable | (mask != 0 ? 0U : 1U));
+  the_console().feed.gp1(gp1::display_off::make(mask == 0));
 }
 
 void PutDispEnv(const DISPENV* env) {
@@ -136,12 +126,12 @@ void PutDispEnv(const DISPENV* env) {
   const int half_height = (env->screen.h != 0 ? env->screen.h : 240) / 2;
   const int x = env->screen.x + 0x760, y = env->screen.y + (sdk::video_mode == MODE_PAL ? 0xa3 : 0x88);
   auto& feed = the_console().feed;
-  feed.gp1(sdk::display_start | sdk::low_bits(env->disp.x, 0x3ff) | sdk::low_bits(env->disp.y, 0x1ff) << 10);
-  feed.gp1(sdk::horizontal_range | sdk::low_bits(x - half_width, 0xfff) |
-           sdk::low_bits(x + half_width, 0xfff) << 12);
-  feed.gp1(sdk::vertical_range | sdk::low_bits(y - half_height, 0x3ff) |
-           sdk::low_bits(y + half_height, 0x3ff) << 10);
-  feed.gp1(sdk::display_mode | sdk::mode_word(*env));
+  feed.gp1(gp1::display_start::make(env->disp.x, env->disp.y));
+  feed.gp1(gp1::horizontal_range::make(sdk::low_bits(x - half_width, 0xfff),
+                                       sdk::low_bits(x + half_width, 0xfff)));
+  feed.gp1(gp1::vertical_range::make(sdk::low_bits(y - half_height, 0x3ff),
+                                     sdk::low_bits(y + half_height, 0x3ff)));
+  feed.gp1(gp1::display_mode::make(sdk::mode_word(*env)));
 }
 
 void PutDrawEnv(DRAWENV* env) {
