@@ -39,14 +39,19 @@ bool has_vertex_line(string_view bytes) {
 
 }  // namespace
 
+std::string lower_extension(const std::filesystem::path& name) {
+  std::string extension = name.extension().string();
+  std::ranges::transform(extension, extension.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
 FileKind kind_of(string_view first_bytes, const std::filesystem::path& name) {
   for (const Row& row : magics)
     if (first_bytes.starts_with(row.text)) return row.kind;
   if (is_xml(first_bytes)) return FileKind::x3d;
   if (has_vertex_line(first_bytes)) return FileKind::obj;
-  std::string extension = name.extension().string();
-  std::ranges::transform(extension, extension.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = lower_extension(name);
   for (const Row& row : extensions)
     if (extension == row.text) return row.kind;
   return FileKind::unknown;

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "base/result.h"
 
 namespace base {
+
+/// ".psxgpu" of "frame.PSXGPU": what a name ends in, in lower case.
+std::string lower_extension(const std::filesystem::path& name);
 
 enum class FileKind : std::uint8_t { unknown, dump, obj, x3d };
 

@@ -7,7 +7,7 @@
 #include "cost/errors.h"
 #include "cost/metrics.h"
 #include "ot/packet.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 
 namespace cost {
 namespace {

@@ -11,7 +11,7 @@
 #include "cost/metrics.h"
 #include "cost/packet_edit.h"
 #include "cost/text.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 
 namespace cost {
 namespace {

@@ -1,20 +1,11 @@
 #include "cost/subject.h"
 
-#include <chrono>
-
+#include "base/clock.h"
 #include "ot/walker.h"
 #include "scene/accurate.h"
 #include "scene/pipeline.h"
 
 namespace cost {
-namespace {
-
-double now_ms() {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(since).count();
-}
-
-}  // namespace
 
 Subject::Subject(scene::Scene scene, std::uint32_t frame) : scene_(std::move(scene)), frame_(frame) {}
 
@@ -30,20 +21,20 @@ base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
     if (gpu.canvas() != nullptr) gpu.canvas()->reset_counters();  // those of the last frame are asked for
     stats = scene::render_frame(build, seconds(), knobs, machine_.ram(), gpu);
     if (!stats) return tl::make_unexpected(stats.error());
-    const double start = now_ms();
+    const double start = base::now_ms();
     machine_.show(knobs);
-    filter = now_ms() - start;
+    filter = base::now_ms() - start;
   }
   // The walk alone, over the list that is still in RAM.
   auto frame = build.build(seconds(), knobs, machine_.ram());
   if (!frame) return tl::make_unexpected(frame.error());
   std::uint32_t sum = 0;
-  const double start = now_ms();
+  const double start = base::now_ms();
   (void)ot::walk(machine_.ram(), frame->head, [&sum](std::uint32_t, std::span<const std::uint32_t> payload) {
     for (auto w : payload) sum += w;
   });
   Drawn drawn;
-  drawn.stages.walk = now_ms() - start;
+  drawn.stages.walk = base::now_ms() - start;
   if (sum == 1) drawn.stages.walk += 0;  // the sum is used, so the walk is made
   drawn.stats = *stats;
   drawn.stages.gte = stats->gte_ms;
@@ -128,11 +119,11 @@ base::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<co
     return tl::make_unexpected(used.error());
   gpu.reset_counters();
   if (gpu.canvas() != nullptr) gpu.canvas()->reset_counters();
-  const double start = now_ms();
+  const double start = base::now_ms();
   gpu.begin_frame(0, buffer_y_);
   gpu.gp0(words);
   gpu.end_frame();
-  return now_ms() - start;
+  return base::now_ms() - start;
 }
 
 bool Subject::uses_canvas(const scene::Knobs& knobs) {

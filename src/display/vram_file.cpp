@@ -7,25 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "base/file_kind.h"
 #include "base/read_file.h"
 #include "base/write_file.h"
 #include "display/png.h"
 #include "display/scanout.h"
 
 namespace display {
-namespace {
-
-bool has_png_name(const std::filesystem::path& path) {
-  auto extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension == ".png";
-}
-
-}  // namespace
 
 base::Result<void> save_vram(const std::filesystem::path& path, const gpu::Vram& vram) {
-  if (has_png_name(path)) return write_png(path, scan_out_all(vram.pixels()));
+  if (base::lower_extension(path) == ".png") return write_png(path, scan_out_all(vram.pixels()));
   std::vector<std::byte> bytes;
   bytes.reserve(2 * gpu::Vram::size);
   for (const std::uint16_t pixel : vram.pixels()) {

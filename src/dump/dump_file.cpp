@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "base/file_kind.h"
 #include "base/read_file.h"
 #include "base/write_file.h"
 #include "dump/compression.h"
@@ -14,14 +15,8 @@
 namespace dump {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& path) {
-  auto text = path.extension().string();
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 Compression compression_by_name(const std::filesystem::path& path) {
-  const auto extension = lower_extension(path);
+  const auto extension = base::lower_extension(path);
   if (extension == ".zst") return Compression::zstd;
   return extension == ".xz" ? Compression::xz : Compression::none;
 }

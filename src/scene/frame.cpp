@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/clock.h"
 #include "gpu/gpu.h"
 #include "ot/gp1.h"
 #include "ot/packet.h"
@@ -129,9 +130,9 @@ base::Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::
   s.ranges.clear();
   s.next_range = 0;
   Frame frame;
-  const double start = now_ms();
+  const double start = base::now_ms();
   s.move(seconds);
-  frame.stats.gte_ms = now_ms() - start;
+  frame.stats.gte_ms = base::now_ms() - start;
   frame.number = round_saturated<std::uint32_t>(seconds * 60);
   s.plan = s.plan_of(knobs, annotate, pieces);
   Plan& plan = s.plan;
@@ -141,22 +142,22 @@ base::Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::
   if (plan.sorting == Sorting::split) {
     s.split.begin();
     Pass(s.world, s.content, plan, s.memory).run(collected, s.split);
-    const double before_split = now_ms();
+    const double before_split = base::now_ms();
     if (auto split =
             s.split.finish(plan.width, plan.height, plan.fraction_mask, plan.split_scale, s.keep_going);
         !split)
       return tl::make_unexpected(split.error());
     collected.was_stopped = s.split.was_stopped();
-    collected.ot_ms += now_ms() - before_split;
+    collected.ot_ms += base::now_ms() - before_split;
     collected.splits = s.split.splits();
     if (pieces == Pieces::snapped) collected.snapped = s.split.snap_pieces();
     plan.rule.length = std::max(1U, static_cast<std::uint32_t>(s.split.far_to_near().size()));
   }
   collected.gte_ms += frame.stats.gte_ms;
   frame.stats = collected;
-  const double before_clear = now_ms();
+  const double before_clear = base::now_ms();
   s.list.begin(ram, plan, {0, plan.rule.length - 1}, words);
-  frame.stats.ot_ms += now_ms() - before_clear;
+  frame.stats.ot_ms += base::now_ms() - before_clear;
   s.feed(frame.stats, s.list);
   if (s.list.is_full()) {
     BucketSizes sizes(plan.rule, plan.style);
@@ -173,9 +174,9 @@ base::Result<Frame> FrameBuilder::build(double seconds, const Knobs& knobs, ot::
     s.next_range = 1;
     frame.nearer_lists = static_cast<std::uint32_t>(s.ranges.size() - 1);
   }
-  const double before_end = now_ms();
+  const double before_end = base::now_ms();
   s.list.end();
-  frame.stats.ot_ms += now_ms() - before_end;
+  frame.stats.ot_ms += base::now_ms() - before_end;
   frame.head = s.list.head();
   frame.table_address = s.list.table_address();
   frame.buckets = s.list.table_length();

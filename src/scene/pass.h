@@ -1,24 +1,19 @@
 #pragma once
 // One trip of all instances of a world through projection, light and submission.
 
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
 #include <vector>
 
+#include "base/clock.h"
 #include "scene/content.h"
 #include "scene/plan.h"
 #include "scene/submit.h"
 #include "scene/view.h"
 
 namespace scene {
-
-inline double now_ms() {
-  const auto since = std::chrono::steady_clock::now().time_since_epoch();
-  return std::chrono::duration<double, std::milli>(since).count();
-}
 
 /// True if the map keeps angles and scales evenly: normals can go through the light matrix as they are.
 inline bool is_even(const glm::dmat3& m) {
@@ -66,7 +61,7 @@ class Pass {
       const auto& instance = world_.instances[i];
       if (instance.mesh >= content_.models.size()) continue;
       const Model& model = content_.models[instance.mesh];
-      const double start = now_ms();
+      const double start = base::now_ms();
       placement.model = &model;
       if (!place(view, instance, placement)) {
         const auto faces = static_cast<std::uint32_t>(model.faces.size() + model.lines.size());
@@ -81,10 +76,10 @@ class Pass {
       submission.colours = memory_.colours;
       submission.mirrored = glm::determinant(placement.exact.linear) * view_sign < 0;
       submission.instance = static_cast<std::uint32_t>(i);
-      const double middle = now_ms();
+      const double middle = base::now_ms();
       Submitter<Sink>(submission, stats, sink).submit();
       stats.gte_ms += middle - start;
-      stats.ot_ms += now_ms() - middle;
+      stats.ot_ms += base::now_ms() - middle;
     }
   }
 

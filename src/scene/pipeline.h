@@ -8,7 +8,7 @@
 namespace scene {
 
 /// Draws the scene at `seconds` into the GPU's VRAM, or into its canvas, and shows it: build, begin_frame,
-/// walk the list(s), end_frame, display start. Sets depth stage and canvas from the knobs (scene/accurate.h).
+/// walk the list(s), end_frame, display start. Sets depth stage and canvas as planned (scene/accurate.h).
 /// Needs FrameBuilder::upload done on this GPU. Error: the frame does not fit, a list is broken, or a polygon
 /// without depth in z-buffer mode.
 [[nodiscard]] base::Result<FrameStats> render_frame(FrameBuilder& builder, double seconds, const Knobs& knobs,

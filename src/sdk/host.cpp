@@ -19,7 +19,7 @@
 #include "display/vram_file.h"
 #include "dump/dump_file.h"
 #include "machine/present.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 #include "scene/world.h"
 #include "sdk/console.h"
 #include "sdk/crash.h"

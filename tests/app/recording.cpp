@@ -8,8 +8,8 @@
 
 #include "demos/demos.h"
 #include "ot/main_ram.h"
-#include "scene/accurate.h"
 #include "scene/pipeline.h"
+#include "scene/plan.h"
 
 namespace {
 

@@ -29,7 +29,7 @@
 #include "inspect/json.h"
 #include "inspect/maps.h"
 #include "inspect/report.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 
 namespace app {
 namespace {

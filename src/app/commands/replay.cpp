@@ -20,7 +20,7 @@
 #include "display/scanout.h"
 #include "display/vram_file.h"
 #include "dump/dump_file.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 
 namespace app {
 namespace {

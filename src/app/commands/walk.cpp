@@ -25,7 +25,7 @@
 #include "inspect/lint.h"
 #include "ot/packet.h"
 #include "ot/walker.h"
-#include "scene/accurate.h"
+#include "scene/plan.h"
 
 namespace app {
 namespace {
