@@ -25,9 +25,11 @@ function(otter_sdk_program name)
     $<$<COMPILE_LANGUAGE:C>:-std=gnu11>)
   target_link_options(${name} PRIVATE -no-pie -Wl,-Ttext-segment=0x10000 -Wl,--wrap=main)
   target_link_libraries(${name} PRIVATE otter::sdk)
-  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF LINKER_LANGUAGE CXX
-    C_COMPILER_LAUNCHER "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/otter-sdk-compile;${CMAKE_C_COMPILER_LAUNCHER}"
-    CXX_COMPILER_LAUNCHER "${CMAKE_CURRENT_FUNCTION_LIST_DIR}/otter-sdk-compile;${CMAKE_CXX_COMPILER_LAUNCHER}")
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF LINKER_LANGUAGE CXX)
+  foreach(language IN ITEMS C CXX)  # `;` only before a launcher there is: an empty one would be run as a command
+    set(launcher ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/otter-sdk-compile ${CMAKE_${language}_COMPILER_LAUNCHER})
+    set_target_properties(${name} PROPERTIES ${language}_COMPILER_LAUNCHER "${launcher}")
+  endforeach()
 endfunction()
 
 # otter_sdk_incbin(target scope symbol size file): a file as data, 8-byte aligned: `symbol`, `symbol`_end and its length.
