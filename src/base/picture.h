@@ -1,6 +1,7 @@
 #pragma once
 // A picture as it leaves the machine: what scan-out makes, what a PNG holds, what the window shows.
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -25,6 +26,10 @@ struct Picture {
 
   [[nodiscard]] Rgba& at(int x, int y) { return pixels[index(x, y)]; }
   [[nodiscard]] const Rgba& at(int x, int y) const { return pixels[index(x, y)]; }
+  /// The nearest pixel of the picture to (x, y).
+  [[nodiscard]] const Rgba& nearest(int x, int y) const {
+    return at(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
+  }
   bool operator==(const Picture&) const = default;
 
  private:

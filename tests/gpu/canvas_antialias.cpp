@@ -98,7 +98,7 @@ std::vector<std::array<Corner, 3>> near_horizontal_triangles(int count) {
   return list;
 }
 
-canvas::Image picture(Studio& studio, const std::array<Corner, 3>& t) {
+base::Picture picture(Studio& studio, const std::array<Corner, 3>& t) {
   studio.draw({0x02000000, 0, side | side << 16});
   studio.draw(polygon(0x20, {t.begin(), t.end()}));
   studio.gpu.end_frame();
@@ -118,7 +118,7 @@ double edge_error(const canvas::Options& options, const std::vector<std::array<C
       for (int x = 0; x < side; ++x) {
         const double exact = coverage(t, x, y);
         if (exact < 1e-9 || exact > 1 - 1e-9) continue;
-        const double seen = (shown.pixels[shown.index(x, y)] & 255) / 255.0;
+        const double seen = shown.at(x, y).r / 255.0;
         sum += (seen - exact) * (seen - exact);
         ++pixels;
       }
@@ -128,7 +128,7 @@ double edge_error(const canvas::Options& options, const std::vector<std::array<C
 }
 
 double edge_error(const canvas::Options& options, const std::vector<std::array<Corner, 3>>& triangles) {
-  return edge_error(options, triangles, [](canvas::Image image) { return image; });
+  return edge_error(options, triangles, [](base::Picture image) { return image; });
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ TEST_SUITE("canvas") {
       CHECK(last < 0.08);
     }
     SUBCASE("FXAA improves on nothing at all") {
-      CHECK(edge_error(target(), triangles, [](const canvas::Image& i) { return canvas::fxaa(i); }) < none);
+      CHECK(edge_error(target(), triangles, [](const base::Picture& i) { return canvas::fxaa(i); }) < none);
     }
   }
 
@@ -190,7 +190,7 @@ TEST_SUITE("canvas") {
       jittered.temporal = true;
       Studio studio(jittered);
       canvas::Accumulator accumulator;
-      canvas::Image shown;
+      base::Picture shown;
       for (int frame = 0; frame < 2 * canvas::jitter_length; ++frame) {
         studio.gpu.begin_frame();
         shown = accumulator.add(picture(studio, t));
@@ -199,7 +199,7 @@ TEST_SUITE("canvas") {
         for (int x = 0; x < side; ++x) {
           const double exact = coverage(t, x, y);
           if (exact < 1e-9 || exact > 1 - 1e-9) continue;
-          const double seen = (shown.pixels[shown.index(x, y)] & 255) / 255.0;
+          const double seen = shown.at(x, y).r / 255.0;
           sum += (seen - exact) * (seen - exact);
           ++pixels;
         }
@@ -243,7 +243,7 @@ TEST_SUITE("canvas") {
         Studio studio(options);
         studio.draw({0x027fc501, 0, side | side << 16});
         const auto image = canvas::resolve(studio.canvas, filter);
-        CHECK(image.pixels == std::vector<std::uint32_t>(side * side, 0xff7fc501));
+        CHECK(image.pixels == std::vector<base::Rgba>(side * side, {0x01, 0xc5, 0x7f}));
       }
     }
   }

@@ -95,12 +95,11 @@ TexelError texel_error(const Floor& floor, bool perspective, int pieces, int uni
   return error;
 }
 
-double mean_square_error(const canvas::Image& a, const canvas::Image& b) {
+double mean_square_error(const base::Picture& a, const base::Picture& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.pixels.size(); ++i) {
-    for (unsigned shift = 0; shift < 24; shift += 8) {
-      const double d =
-          static_cast<double>(a.pixels[i] >> shift & 255) - static_cast<double>(b.pixels[i] >> shift & 255);
+    for (const auto channel : {&base::Rgba::r, &base::Rgba::g, &base::Rgba::b}) {
+      const double d = a.pixels[i].*channel - b.pixels[i].*channel;
       sum += d * d;
     }
   }

@@ -21,25 +21,23 @@ namespace {
 
 using Rgb = std::array<double, 3>;
 
-Rgb rgb(std::uint32_t p) {
+Rgb rgb(base::Rgba p) {
+  return {static_cast<double>(p.r), static_cast<double>(p.g), static_cast<double>(p.b)};
+}
+Rgb rgb(canvas::Pixel p) {
   return {static_cast<double>(p & 255), static_cast<double>(p >> 8 & 255),
           static_cast<double>(p >> 16 & 255)};
 }
-std::uint32_t pixel(int r, int g, int b) {
-  return 0xff000000U | static_cast<std::uint32_t>(r) | static_cast<std::uint32_t>(g) << 8 |
-         static_cast<std::uint32_t>(b) << 16;
+base::Rgba pixel(int r, int g, int b) {
+  return {static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)};
 }
-canvas::Image grey(int width, int height, int level) {
-  canvas::Image image(width, height);
-  std::ranges::fill(image.pixels, pixel(level, level, level));
-  return image;
-}
+base::Picture grey(int width, int height, int level) { return {width, height, pixel(level, level, level)}; }
 
 /// FXAA as resolve.h and Lottes describe it, one pixel at a time, in double. Even channels make every mean of
 /// two brightnesses whole, so that no comparison hangs on a rounding.
 class ReferenceFxaa {
  public:
-  explicit ReferenceFxaa(const canvas::Image& image) : image_(image) {}
+  explicit ReferenceFxaa(const base::Picture& image) : image_(image) {}
 
   [[nodiscard]] Rgb at(int x, int y) const {
     const double c = luma(x, y);
@@ -92,22 +90,21 @@ class ReferenceFxaa {
 
  private:
   [[nodiscard]] Rgb colour(int x, int y) const {
-    return rgb(
-        image_.pixels[image_.index(std::clamp(x, 0, image_.width - 1), std::clamp(y, 0, image_.height - 1))]);
+    return rgb(image_.at(std::clamp(x, 0, image_.width - 1), std::clamp(y, 0, image_.height - 1)));
   }
   [[nodiscard]] double luma(int x, int y) const {
     const auto [r, g, b] = colour(x, y);
     return (77 * r + 150 * g + 29 * b) / 256;
   }
-  const canvas::Image& image_;
+  const base::Picture& image_;
 };
 
-void check_fxaa(const canvas::Image& image) {
+void check_fxaa(const base::Picture& image) {
   const auto filtered = canvas::fxaa(image);
   const ReferenceFxaa reference(image);
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
-      const Rgb wanted = reference.at(x, y), got = rgb(filtered.pixels[filtered.index(x, y)]);
+      const Rgb wanted = reference.at(x, y), got = rgb(filtered.at(x, y));
       for (std::size_t c = 0; c < 3; ++c) {
         CAPTURE(x);
         CAPTURE(y);
@@ -124,11 +121,11 @@ TEST_SUITE("canvas") {
     for (const int run : {1, 2, 3, 5, 7, 8, 9, 12, 30}) {
       for (const int level : {12, 14, 40, 254}) {
         for (const bool is_steep : {false, true}) {
-          canvas::Image image = grey(48, 48, 0);
+          base::Picture image = grey(48, 48, 0);
           for (int y = 0; y < 48; ++y) {
             for (int x = 0; x < 48; ++x) {
               const int along = is_steep ? y : x, across = is_steep ? x : y;
-              if (across > 20 + along / run) image.pixels[image.index(x, y)] = pixel(level, level, level);
+              if (across > 20 + along / run) image.at(x, y) = pixel(level, level, level);
             }
           }
           check_fxaa(image);
@@ -140,29 +137,29 @@ TEST_SUITE("canvas") {
   TEST_CASE("FXAA is what its description says, on random blocks, single pixels and noise") {
     Random random(77);
     for (int round = 0; round < 12; ++round) {
-      canvas::Image image = grey(40, 30, 60);
+      base::Picture image = grey(40, 30, 60);
       const int size = 1 + round % 4;
       for (int y = 0; y < 30; ++y) {
         for (int x = 0; x < 40; ++x) {
           Random here(static_cast<std::uint64_t>((y / size) * 64 + x / size + round * 4096));
           const int spread = round < 6 ? 127 : 12;
-          image.pixels[image.index(x, y)] =
+          image.at(x, y) =
               pixel(2 * here.between(0, spread), 2 * here.between(0, spread), 2 * here.between(0, spread));
         }
       }
       check_fxaa(image);
     }
-    canvas::Image lonely = grey(9, 9, 100);
-    lonely.pixels[lonely.index(4, 4)] = pixel(200, 200, 200);
+    base::Picture lonely = grey(9, 9, 100);
+    lonely.at(4, 4) = pixel(200, 200, 200);
     check_fxaa(lonely);
     // One pixel out of nine alike: the mean of the eight is theirs, so half of it is blended away.
-    CHECK(rgb(canvas::fxaa(lonely).pixels[lonely.index(4, 4)])[0] == doctest::Approx(150).epsilon(0.005));
+    CHECK(rgb(canvas::fxaa(lonely).at(4, 4))[0] == doctest::Approx(150).epsilon(0.005));
   }
 
   TEST_CASE("FXAA leaves contrasts below 12 of 255, and below a sixth of the brightest, as they are") {
     const auto changes = [](int dark, int bright) {
-      canvas::Image image = grey(12, 12, dark);
-      image.pixels[image.index(6, 6)] = pixel(bright, bright, bright);
+      base::Picture image = grey(12, 12, dark);
+      image.at(6, 6) = pixel(bright, bright, bright);
       return canvas::fxaa(image).pixels != image.pixels;
     };
     CHECK_FALSE(changes(0, 10));
@@ -221,9 +218,9 @@ TEST_SUITE("canvas") {
   TEST_CASE("Accumulation is the running mean of eight frames, and the whole history before that") {
     // Between black and white neighbours nothing is cut off: the middle pixel follows the formula alone.
     const auto frame = [](int middle) {
-      canvas::Image image = grey(3, 3, 0);
-      image.pixels[image.index(0, 0)] = pixel(255, 255, 255);
-      image.pixels[image.index(1, 1)] = pixel(middle, 255 - middle, 7);
+      base::Picture image = grey(3, 3, 0);
+      image.at(0, 0) = pixel(255, 255, 255);
+      image.at(1, 1) = pixel(middle, 255 - middle, 7);
       return image;
     };
     canvas::Accumulator accumulator;
@@ -232,10 +229,10 @@ TEST_SUITE("canvas") {
     for (int n = 1; n <= 40; ++n) {
       const int middle = n % 11 < 5 ? 255 - n : random.between(0, 255);
       const auto image = frame(middle);
-      const Rgb now = rgb(image.pixels[image.index(1, 1)]);
+      const Rgb now = rgb(image.at(1, 1));
       for (std::size_t c = 0; c < 3; ++c)
         history[c] = n == 1 ? now[c] : history[c] + (now[c] - history[c]) / std::min(n, 8);
-      const Rgb shown = rgb(accumulator.add(image).pixels[image.index(1, 1)]);
+      const Rgb shown = rgb(accumulator.add(image).at(1, 1));
       // 8.8 fixed point: each frame loses less than 1/256, which fades with the memory; the rest is rounding.
       for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(shown[c] - history[c]) <= 0.5 + 8.0 / 256);
     }
@@ -248,11 +245,11 @@ TEST_SUITE("canvas") {
       for (int b = 0; b < 256; b += 7) {
         canvas::Accumulator accumulator;
         for (const int middle : {a, b}) {
-          canvas::Image image = grey(3, 3, 0);
-          image.pixels[image.index(0, 0)] = pixel(255, 255, 255);
-          image.pixels[image.index(1, 1)] = pixel(middle, middle, middle);
+          base::Picture image = grey(3, 3, 0);
+          image.at(0, 0) = pixel(255, 255, 255);
+          image.at(1, 1) = pixel(middle, middle, middle);
           const auto& shown = accumulator.add(image);
-          if (middle == b) error += rgb(shown.pixels[shown.index(1, 1)])[0] - (a + b) / 2.0;
+          if (middle == b) error += rgb(shown.at(1, 1))[0] - (a + b) / 2.0;
         }
         ++count;
       }
@@ -266,9 +263,9 @@ TEST_SUITE("canvas") {
     for (int n = 0; n < 10; ++n) (void)accumulator.add(grey(4, 4, 200));
     CHECK(accumulator.add(grey(5, 4, 10)).pixels == grey(5, 4, 10).pixels);
     const auto spotted = [](int level) {
-      canvas::Image image = grey(3, 3, 0);
+      base::Picture image = grey(3, 3, 0);
       image.pixels[0] = pixel(255, 255, 255);
-      image.pixels[image.index(1, 1)] = pixel(level, level, level);
+      image.at(1, 1) = pixel(level, level, level);
       return image;
     };
     for (int n = 0; n < 10; ++n) (void)accumulator.add(spotted(250));

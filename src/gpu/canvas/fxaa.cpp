@@ -8,9 +8,7 @@ namespace gpu::canvas {
 namespace {
 
 /// Perceived brightness, 0..255 * 256.
-int luma(std::uint32_t p) {
-  return static_cast<int>((p & 255) * 77 + (p >> 8 & 255) * 150 + (p >> 16 & 255) * 29);
-}
+int luma(base::Rgba p) { return p.r * 77 + p.g * 150 + p.b * 29; }
 
 constexpr int least_contrast = 12 * 256;  // of 255 * 256: weaker edges are texture
 constexpr int relative_contrast = 6;      // an edge is at least 1/6 of the brightest neighbour
@@ -21,13 +19,13 @@ class Lumas {
  public:
   static constexpr int border = search_length + 2;
 
-  explicit Lumas(const Image& image)
-      : width_(image.width),
-        height_(image.height),
+  explicit Lumas(const base::Picture& picture)
+      : width_(picture.width),
+        height_(picture.height),
         values_(static_cast<std::size_t>(stride()) * static_cast<std::size_t>(height_ + 2 * border)) {
     for (int y = 0; y < height_; ++y) {
       std::int32_t* row = &values_[index(0, y)];
-      const auto* pixels = &image.pixels[image.index(0, y)];
+      const auto* pixels = &picture.at(0, y);
       std::transform(pixels, pixels + width_, row, luma);
       std::fill_n(row - border, border, row[0]);
       std::fill_n(row + width_, border, row[width_ - 1]);
@@ -65,17 +63,14 @@ End follow(const std::int32_t* here, int step, int across, int edge, int gradien
   return {search_length + 1, false};
 }
 
-std::uint32_t mix(std::uint32_t a, std::uint32_t b, double weight) {
-  std::uint32_t result = 0xff000000;
-  for (unsigned shift = 0; shift < 24; shift += 8) {
-    const double va = a >> shift & 255;
-    const double vb = b >> shift & 255;
-    result |= static_cast<std::uint32_t>(va + (vb - va) * weight + 0.5) << shift;
-  }
-  return result;
+base::Rgba mix(base::Rgba a, base::Rgba b, double weight) {
+  const auto between = [weight](double from, double to) {
+    return static_cast<std::uint8_t>(from + (to - from) * weight + 0.5);
+  };
+  return {between(a.r, b.r), between(a.g, b.g), between(a.b, b.b)};
 }
 
-std::uint32_t smooth(const Image& image, const Lumas& lumas, int x, int y) {
+base::Rgba smooth(const base::Picture& picture, const Lumas& lumas, int x, int y) {
   const std::int32_t* here_luma = lumas.at(x, y);
   const int stride = lumas.stride();
   const int c = here_luma[0];
@@ -85,7 +80,6 @@ std::uint32_t smooth(const Image& image, const Lumas& lumas, int x, int y) {
   const int e = here_luma[1];
   const auto [low, high] = std::minmax({c, n, s, w, e});
   const int contrast = high - low;
-  const std::uint32_t here = image.pixels[image.index(x, y)];
 
   const int nw = here_luma[-stride - 1];
   const int ne = here_luma[-stride + 1];
@@ -122,22 +116,22 @@ std::uint32_t smooth(const Image& image, const Lumas& lumas, int x, int y) {
   const double lonely = std::clamp(std::abs(mean - c) / contrast, 0.0, 1.0);
   const double smoothed = lonely * lonely * (3 - 2 * lonely);
   const double alone = smoothed * smoothed * 0.5;
-  return mix(here, image.nearest(x + nx, y + ny), std::max(along, alone));
+  return mix(picture.at(x, y), picture.nearest(x + nx, y + ny), std::max(along, alone));
 }
 
 }  // namespace
 
-Image fxaa(const Image& image) {
-  Image result = image;
-  if (image.pixels.empty()) return result;
-  const Lumas lumas(image);
+base::Picture fxaa(const base::Picture& picture) {
+  base::Picture result = picture;
+  if (picture.pixels.empty()) return result;
+  const Lumas lumas(picture);
   // Most pixels lie on no edge: finding that out is what the filter spends its time on.
-  std::vector<std::uint8_t> is_edge(static_cast<std::size_t>(image.width));
-  for (int y = 0; y < image.height; ++y) {
+  std::vector<std::uint8_t> is_edge(static_cast<std::size_t>(picture.width));
+  for (int y = 0; y < picture.height; ++y) {
     const std::int32_t* above = lumas.at(0, y - 1);
     const std::int32_t* here = lumas.at(0, y);
     const std::int32_t* below = lumas.at(0, y + 1);
-    for (int x = 0; x < image.width; ++x) {
+    for (int x = 0; x < picture.width; ++x) {
       const int across_low = std::min(here[x - 1], here[x + 1]);
       const int across_high = std::max(here[x - 1], here[x + 1]);
       const int low = std::min(std::min(here[x], across_low), std::min(above[x], below[x]));
@@ -145,9 +139,8 @@ Image fxaa(const Image& image) {
       is_edge[static_cast<std::size_t>(x)] =
           high - low >= std::max(least_contrast, high / relative_contrast) ? 1 : 0;
     }
-    for (int x = 0; x < image.width; ++x) {
-      if (is_edge[static_cast<std::size_t>(x)] != 0)
-        result.pixels[image.index(x, y)] = smooth(image, lumas, x, y);
+    for (int x = 0; x < picture.width; ++x) {
+      if (is_edge[static_cast<std::size_t>(x)] != 0) result.at(x, y) = smooth(picture, lumas, x, y);
     }
   }
   return result;

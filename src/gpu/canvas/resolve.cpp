@@ -1,6 +1,7 @@
 #include "gpu/canvas/resolve.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace gpu::canvas {
@@ -25,16 +26,19 @@ double falloff(Reconstruction filter, double distance) {
 /// 5 bits in the high end of a byte, widened to the whole byte.
 constexpr Pixel widen_bytes(Pixel five) { return five | (five >> 5 & 0x070707U); }
 
-constexpr Pixel opaque_black = 0xff000000;
+base::Rgba rgba(std::uint32_t r, std::uint32_t g, std::uint32_t b) {
+  return {static_cast<std::uint8_t>(r), static_cast<std::uint8_t>(g), static_cast<std::uint8_t>(b)};
+}
 
 /// One sample a pixel and no filter: the frame is the picture.
-Image copy(const Canvas& canvas) {
-  Image image(canvas.width(), canvas.height());
+base::Picture copy(const Canvas& canvas) {
+  base::Picture picture(canvas.width(), canvas.height());
   const bool five = canvas.options().colour == Colour::bits15;
-  std::ranges::transform(canvas.layer(0), image.pixels.begin(), [five](Pixel p) {
-    return opaque_black | (five ? widen_bytes(p & 0xf8f8f8U) : p & 0xffffffU);
+  std::ranges::transform(canvas.layer(0), picture.pixels.begin(), [five](Pixel p) {
+    if (five) p = widen_bytes(p & 0xf8f8f8U);
+    return rgba(p, p >> 8, p >> 16);
   });
-  return image;
+  return picture;
 }
 
 /// Weighted sums of one row of the picture, three channels a pixel.
@@ -92,60 +96,57 @@ std::vector<Tap> filter_taps(const Options& options, Reconstruction filter) {
   return result;
 }
 
-Image resolve(const Canvas& canvas, Reconstruction filter) {
+base::Picture resolve(const Canvas& canvas, Reconstruction filter) {
   const auto taps = filter_taps(canvas.options(), filter);
   if (taps.size() == 1) return copy(canvas);
-  Image image(canvas.width(), canvas.height());
+  base::Picture picture(canvas.width(), canvas.height());
   const bool five = canvas.options().colour == Colour::bits15;
   const auto samples = canvas.samples();
-  const auto row_samples = static_cast<std::size_t>(image.width) * samples;
-  std::vector<std::uint32_t> sums(static_cast<std::size_t>(image.width) * 3);
-  for (int y = 0; y < image.height; ++y) {
+  const auto row_samples = static_cast<std::size_t>(picture.width) * samples;
+  std::vector<std::uint32_t> sums(static_cast<std::size_t>(picture.width) * 3);
+  for (int y = 0; y < picture.height; ++y) {
     std::ranges::fill(sums, one / 2);
     for (const Tap& tap : taps) {
-      const auto line = static_cast<std::size_t>(std::clamp(y + tap.dy, 0, image.height - 1));
+      const auto line = static_cast<std::size_t>(std::clamp(y + tap.dy, 0, picture.height - 1));
       add_row(sums, canvas.layer(tap.layer).subspan(line * row_samples, row_samples), samples, tap, five);
     }
-    for (int x = 0; x < image.width; ++x) {
+    for (int x = 0; x < picture.width; ++x) {
       const auto at = static_cast<std::size_t>(x) * 3;
-      image.pixels[image.index(x, y)] =
-          opaque_black | sums[at] >> 16 | sums[at + 1] >> 16 << 8 | sums[at + 2] >> 16 << 16;
+      picture.at(x, y) = rgba(sums[at] >> 16, sums[at + 1] >> 16, sums[at + 2] >> 16);
     }
   }
-  return image;
+  return picture;
 }
 
-const Image& Accumulator::add(const Image& frame) {
+const base::Picture& Accumulator::add(const base::Picture& frame) {
   constexpr int memory = 8;  // frames: the length of the jitter sequence
-  const auto values = frame.pixels.size() * 3;
+  constexpr std::array channels{&base::Rgba::r, &base::Rgba::g, &base::Rgba::b};
+  const auto values = frame.pixels.size() * channels.size();
   if (history_.size() != values || shown_.width != frame.width) {
     history_.assign(values, 0);
     shown_ = frame;
     frames_ = 0;
   }
   frames_ = std::min(frames_ + 1, memory);
+  auto past = history_.begin();
   for (int y = 0; y < frame.height; ++y) {
     for (int x = 0; x < frame.width; ++x) {
-      const auto at = frame.index(x, y);
-      std::uint32_t result = opaque_black;
-      for (unsigned c = 0; c < 3; ++c) {
-        const auto channel = [c](std::uint32_t p) { return static_cast<int>(p >> (8 * c) & 255) << 8; };
-        int low = channel(frame.pixels[at]);
-        int high = low;
+      for (const auto channel : channels) {
+        const int value = frame.at(x, y).*channel << 8;
+        int low = value;
+        int high = value;
         for (int dy = -1; dy <= 1; ++dy) {
           for (int dx = -1; dx <= 1; ++dx) {
-            const int value = channel(frame.nearest(x + dx, y + dy));
-            low = std::min(low, value);
-            high = std::max(high, value);
+            const int beside = frame.nearest(x + dx, y + dy).*channel << 8;
+            low = std::min(low, beside);
+            high = std::max(high, beside);
           }
         }
-        auto& past = history_[at * 3 + c];
-        const int kept = frames_ == 1 ? channel(frame.pixels[at]) : std::clamp<int>(past, low, high);
-        const int mixed = kept + (channel(frame.pixels[at]) - kept) / frames_;
-        past = static_cast<std::uint16_t>(mixed);
-        result |= static_cast<std::uint32_t>(std::min((mixed + 128) >> 8, 255)) << (8 * c);
+        const int kept = frames_ == 1 ? value : std::clamp<int>(*past, low, high);
+        const int mixed = kept + (value - kept) / frames_;
+        *past++ = static_cast<std::uint16_t>(mixed);
+        shown_.at(x, y).*channel = static_cast<std::uint8_t>(std::min((mixed + 128) >> 8, 255));
       }
-      shown_.pixels[at] = result;
     }
   }
   return shown_;

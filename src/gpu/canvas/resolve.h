@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/picture.h"
 #include "gpu/canvas/canvas.h"
-#include "gpu/canvas/image.h"
 
 namespace gpu::canvas {
 
@@ -24,12 +24,12 @@ struct Tap {
 std::vector<Tap> filter_taps(const Options& options, Reconstruction filter);
 
 /// The picture: width() x height() pixels, 8 bits a channel; 5 bits become 8 as v << 3 | v >> 2.
-Image resolve(const Canvas& canvas, Reconstruction filter);
+base::Picture resolve(const Canvas& canvas, Reconstruction filter);
 
 /// Fast approximate anti-aliasing of a finished picture: where luma shows an edge, pixels are
 /// moved along their neighbour by the share of the edge's length that they stand at. [Lottes 2009,
 /// FXAA; written from the description]
-Image fxaa(const Image& image);
+base::Picture fxaa(const base::Picture& picture);
 
 /// Temporal accumulation: the mean of the last frames, each drawn from another jitter. What is
 /// left of earlier frames is limited to the colours round each pixel of the newest one, so
@@ -37,13 +37,13 @@ Image fxaa(const Image& image);
 class Accumulator {
  public:
   /// Takes the next frame and returns the accumulated picture. A picture of another size starts anew.
-  const Image& add(const Image& frame);
+  const base::Picture& add(const base::Picture& frame);
   void forget() { frames_ = 0; }
   [[nodiscard]] std::uint64_t bytes() const { return history_.size() * sizeof(std::uint16_t); }
 
  private:
   std::vector<std::uint16_t> history_;  // 8.8, three a pixel
-  Image shown_;
+  base::Picture shown_;
   int frames_ = 0;
 };
 
