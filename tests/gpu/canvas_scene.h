@@ -1,6 +1,5 @@
 #pragma once
-// Words for the canvas tests: a console and a canvas fed alike, and a random source
-// that is the same everywhere.
+// Words for the canvas tests: a console and a canvas fed alike.
 
 #include <array>
 #include <cstdint>
@@ -9,25 +8,11 @@
 
 #include "gpu/canvas/canvas.h"
 #include "gpu/gpu.h"
+#include "tests/random.h"
 
 namespace canvas_test {
 
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed * 2 + 1) {}
-  std::uint32_t word() {  // PCG32 [O'Neill 2014]
-    state_ = state_ * 6364136223846793005U + 1442695040888963407U;
-    const auto mixed = static_cast<std::uint32_t>(((state_ >> 18) ^ state_) >> 27);
-    const auto turn = static_cast<unsigned>(state_ >> 59);
-    return mixed >> turn | mixed << (-turn & 31);
-  }
-  int between(int low, int high) {
-    return low + static_cast<int>(word() % static_cast<std::uint32_t>(high - low + 1));
-  }
-
- private:
-  std::uint64_t state_;
-};
+using tests::Random;
 
 /// A corner in 1/256 pixels with everything a polygon may say about it.
 struct Corner {

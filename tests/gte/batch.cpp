@@ -8,7 +8,7 @@
 #include <cstring>
 #include <string>
 
-#include "tests/gte/random.h"
+#include "tests/gte/random_registers.h"
 
 namespace {
 

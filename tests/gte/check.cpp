@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "gte/commands.h"
-#include "tests/gte/random.h"
+#include "tests/gte/random_registers.h"
 
 namespace {
 

@@ -8,7 +8,7 @@
 #include "gte/batch.h"
 #include "gte/commands.h"
 #include "gte/divide.h"
-#include "tests/gte/random.h"
+#include "tests/gte/random_registers.h"
 
 namespace {
 

@@ -3,10 +3,10 @@
 // corners, interpenetration, extreme depths, sub-pixel corners.
 
 #include <array>
-#include <random>
 #include <vector>
 
 #include "exact/split.h"
+#include "tests/random.h"
 
 namespace tests {
 
@@ -14,9 +14,9 @@ enum class Kind : std::uint8_t { anything, whole_pixels, nearly_coplanar, coplan
 inline constexpr std::array all_kinds{Kind::anything, Kind::whole_pixels, Kind::nearly_coplanar,
                                       Kind::coplanar, Kind::sharing,      Kind::extreme};
 
-class RandomTriangles {
+class RandomTriangles : public Random {
  public:
-  explicit RandomTriangles(std::uint32_t seed) : engine_(seed) {}
+  using Random::Random;
 
   /// `count` triangles around a screen of size x size pixels.
   std::vector<exact::Triangle> scene(Kind kind, int count, int size) {
@@ -24,10 +24,6 @@ class RandomTriangles {
     triangles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) triangles.push_back(triangle(kind, size, triangles));
     return triangles;
-  }
-
-  std::int32_t between(std::int32_t low, std::int32_t high) {
-    return low + static_cast<std::int32_t>(engine_() % static_cast<std::uint32_t>(high - low + 1));
   }
 
  private:
@@ -42,8 +38,7 @@ class RandomTriangles {
         corner.y &= ~255;
       }
       if (kind == Kind::extreme)
-        corner.z = between(0, 1) != 0 ? static_cast<std::uint32_t>(engine_())
-                                      : static_cast<std::uint32_t>(between(0, 2));
+        corner.z = between(0, 1) != 0 ? word() : static_cast<std::uint32_t>(between(0, 2));
       // One plane of 1/z for all: z = 720720 / (1 + x + 2y) is whole on a small screen's corners.
       if (kind == Kind::coplanar || kind == Kind::nearly_coplanar) {
         corner.x = between(0, 3) * 512;
@@ -59,8 +54,6 @@ class RandomTriangles {
     }
     return t;
   }
-
-  std::mt19937 engine_;
 };
 
 }  // namespace tests

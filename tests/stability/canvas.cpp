@@ -19,7 +19,6 @@ namespace canvas = gpu::canvas;
 using canvas_test::Corner;
 using canvas_test::polygon;
 using canvas_test::Studio;
-using stability::between;
 using stability::Measure;
 using stability::Random;
 
@@ -103,10 +102,10 @@ TEST_SUITE("stability") {
           studio.draw({0xe1000020});  // B + F
           // A rectangle that leaves a border of some pixels, on the grid that the fractions can say.
           const int steps = 1 << bits, unit = 256 / steps;
-          const canvas::Point corner{between(random, 2 * steps, 5 * steps),
-                                     between(random, 2 * steps, 5 * steps)};
-          const int width = between(random, 20 * steps, 40 * steps),
-                    height = between(random, 12 * steps, 24 * steps);
+          const canvas::Point corner{random.between(2 * steps, 5 * steps),
+                                     random.between(2 * steps, 5 * steps)};
+          const int width = random.between(20 * steps, 40 * steps),
+                    height = random.between(12 * steps, 24 * steps);
           const auto mesh = stability::triangulate(random, width, height, 40);
           for (const auto& t : mesh) {
             std::vector<Corner> corners;
@@ -173,21 +172,21 @@ TEST_SUITE("stability") {
     std::uint32_t colour = 0;
     while (colour < 600) {
       const auto coordinate = [&](int low, int high) {
-        switch (between(random, 0, 3)) {
+        switch (random.between(0, 3)) {
           case 0:
             return low;
           case 1:
             return high;
           case 2:
-            return between(random, low, high);
+            return random.between(low, high);
           default:
-            return between(random, -256, 16 * 256);
+            return random.between(-256, 16 * 256);
         }
       };
       ++colour;
       std::vector<Corner> corners;
       // Within 1023 x 511 whole pixels, or the size rule refuses the triangle.
-      const bool right = between(random, 0, 1) != 0, lower = between(random, 0, 1) != 0;
+      const bool right = random.between(0, 1) != 0, lower = random.between(0, 1) != 0;
       for (int i = 0; i < 3; ++i) {
         corners.push_back({right ? coordinate(0, 1023 * 256 + 255) : coordinate(-1015 * 256, 8 * 256 + 255),
                            lower ? coordinate(0, 511 * 256 + 255) : coordinate(-503 * 256, 8 * 256 + 255),
@@ -231,12 +230,12 @@ TEST_SUITE("stability") {
         std::vector<Corner> corners;
         for (int v = 0; v < 3; ++v) {
           const bool grazes = i % 2 == 1;
-          const int z = !grazes  ? between(random, 100, 4000)
+          const int z = !grazes  ? random.between(100, 4000)
                         : v == 0 ? 1
                         : v == 1 ? 65'535
-                                 : between(random, 1, 65'535);
-          corners.push_back({between(random, -20 * 256, 68 * 256), between(random, -20 * 256, 56 * 256),
-                             0x808080, between(random, 0, 255), between(random, 0, 255),
+                                 : random.between(1, 65'535);
+          corners.push_back({random.between(-20 * 256, 68 * 256), random.between(-20 * 256, 56 * 256),
+                             0x808080, random.between(0, 255), random.between(0, 255),
                              static_cast<std::uint32_t>(z) << 12});
         }
         studio.draw(polygon(0x25, corners, 0, 0x100));

@@ -28,10 +28,6 @@ using stability::Random;
 
 namespace {
 
-double real(Random& random, double low, double high) {
-  return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
-}
-
 double area(const std::vector<dvec3>& polygon) {
   dvec3 sum{0.0};
   for (std::size_t i = 2; i < polygon.size(); ++i) {
@@ -68,7 +64,7 @@ std::vector<dvec3> clipped(const Clipper& clipper, const std::array<dvec3, 3>& t
 /// A point on a sphere that is well spread whatever the generator gives.
 dvec3 direction(Random& random) {
   for (;;) {
-    const dvec3 v{real(random, -1, 1), real(random, -1, 1), real(random, -1, 1)};
+    const dvec3 v{random.real(-1, 1), random.real(-1, 1), random.real(-1, 1)};
     const double size = glm::length(v);
     if (size > 0.1 && size <= 1) return v / size;
   }
@@ -148,9 +144,9 @@ TEST_SUITE("stability") {
     Random random(70);
     for (int i = 0; i < 100'000; ++i) {
       // Inside the guard band wherever z allows, so that the near plane alone cuts.
-      const dvec3 centre{real(random, -20, 20), real(random, -20, 20), near_z + real(random, -20, 20)};
+      const dvec3 centre{random.real(-20, 20), random.real(-20, 20), near_z + random.real(-20, 20)};
       const dvec3 u = direction(random), v = direction(random);
-      const double size = real(random, 1, 45);
+      const double size = random.real(1, 45);
       const std::array<dvec3, 3> t{centre + u * size, centre + v * size, centre - (u + v) * size};
       const double all = area({t[0], t[1], t[2]});
       lost.see(std::abs(area(clipped(exact, t)) - area(beyond_near(t, near_z))) / std::max(all, 1.0));

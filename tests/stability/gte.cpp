@@ -15,7 +15,6 @@
 #include "stability/triangulation.h"
 
 using gte::Registers;
-using stability::between;
 using stability::Measure;
 using stability::Random;
 
@@ -31,17 +30,19 @@ Registers camera(std::int32_t z) {
   return r;
 }
 
-std::int16_t any_16(Random& random) { return static_cast<std::int16_t>(random()); }
+std::int16_t any_16(Random& random) { return static_cast<std::int16_t>(random.word()); }
 
 /// Registers from the corners of their ranges as often as from their middle.
 Registers extreme(Random& random) {
   constexpr std::array<std::int32_t, 9> corners{0,          1,         -1,     0x7fff, -0x8000,
                                                 0x7fffffff, INT32_MIN, 0x1000, -0x1000};
   const auto wide = [&] {
-    return random() % 2 == 0 ? corners[random() % corners.size()] : static_cast<std::int32_t>(random());
+    return random.word() % 2 == 0 ? corners[random.word() % corners.size()]
+                                  : static_cast<std::int32_t>(random.word());
   };
   const auto narrow = [&] {
-    return random() % 2 == 0 ? static_cast<std::int16_t>(corners[random() % corners.size()]) : any_16(random);
+    return random.word() % 2 == 0 ? static_cast<std::int16_t>(corners[random.word() % corners.size()])
+                                  : any_16(random);
   };
   Registers r;
   for (auto* matrix : {&r.rt, &r.llm, &r.lcm}) {
@@ -54,8 +55,8 @@ Registers extreme(Random& random) {
     r.tr[i] = wide();
     r.bk[i].raw = wide();
     r.fc[i].raw = wide();
-    r.rgb[i] = {static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random()),
-                static_cast<std::uint8_t>(random()), 0};
+    r.rgb[i] = {static_cast<std::uint8_t>(random.word()), static_cast<std::uint8_t>(random.word()),
+                static_cast<std::uint8_t>(random.word()), 0};
     r.sxy[i] = {narrow(), narrow()};
   }
   for (auto& ir : r.ir) ir = narrow();
@@ -153,8 +154,8 @@ TEST_SUITE("stability") {
     Random random(4);
     for (int i = 0; i < 200; ++i) {
       auto r = camera(0);
-      r.v[0] = {static_cast<std::int16_t>(between(random, -4000, 4000)),
-                static_cast<std::int16_t>(between(random, -4000, 4000)), 0, 0};
+      r.v[0] = {static_cast<std::int16_t>(random.between(-4000, 4000)),
+                static_cast<std::int16_t>(random.between(-4000, 4000)), 0, 0};
       std::array<int, 2> before{};
       double worst = 0;
       std::uint64_t tried = 0;
@@ -184,7 +185,7 @@ TEST_SUITE("stability") {
                       0};
     Random random(5);
     for (int i = 0; i < 100'000; ++i) {
-      auto r = camera(between(random, -40'000, h / 2));
+      auto r = camera(random.between(-40'000, h / 2));
       r.v[0] = {any_16(random), any_16(random), 0, 0};
       gte::rtps(r);
       const bool ok = (r.flag & gte::flag::divide_overflow) != 0 && (r.flag & gte::flag::error) != 0 &&
@@ -204,8 +205,8 @@ TEST_SUITE("stability") {
     Random random(6);
     for (int i = 0; i < 300'000; ++i) {
       auto r = extreme(random);
-      const auto command =
-          gte::Command(static_cast<std::uint32_t>((random() & 0x1ffffc0U) | static_cast<unsigned>(i % 64)));
+      const auto command = gte::Command(
+          static_cast<std::uint32_t>((random.word() & 0x1ffffc0U) | static_cast<unsigned>(i % 64)));
       gte::execute(r, command);
       const bool projects = command.opcode() == 0x01 || command.opcode() == 0x30;
       const auto on_screen = [](std::int16_t v) { return v >= -0x400 && v <= 0x3ff; };
@@ -227,9 +228,11 @@ TEST_SUITE("stability") {
     for (int i = 0; i < 200'000; ++i) {
       auto r = extreme(random);
       // Alternating signs let a sum leave the range and come back.
-      const auto any_corner = [&] { return static_cast<std::int16_t>(random() % 2 == 0 ? 0x7fff : -0x8000); };
+      const auto any_corner = [&] {
+        return static_cast<std::int16_t>(random.word() % 2 == 0 ? 0x7fff : -0x8000);
+      };
       if (i % 2 == 0) {
-        r.tr[0] = random() % 2 == 0 ? INT32_MAX : INT32_MIN;
+        r.tr[0] = random.word() % 2 == 0 ? INT32_MAX : INT32_MIN;
         for (auto& element : r.rt[0]) element.raw = any_corner();
         r.v[0] = {any_corner(), any_corner(), any_corner(), 0};
       }
@@ -266,9 +269,9 @@ TEST_SUITE("stability") {
     Random random(8);
     std::array<gte::Vertex, 64> mesh{};
     for (auto& v : mesh) {
-      v = {static_cast<std::int16_t>(between(random, -1000, 1000)),
-           static_cast<std::int16_t>(between(random, -1000, 1000)),
-           static_cast<std::int16_t>(between(random, -1000, 1000)), 0};
+      v = {static_cast<std::int16_t>(random.between(-1000, 1000)),
+           static_cast<std::int16_t>(random.between(-1000, 1000)),
+           static_cast<std::int16_t>(random.between(-1000, 1000)), 0};
     }
     for (int step = 0; step < 1000; ++step) {
       const double turns = step / 7000.0;
@@ -356,7 +359,7 @@ TEST_SUITE("stability") {
                   1.0 / 8192};
     Random random(9);
     for (int i = 0; i < 200'000; ++i) {
-      const double value = (static_cast<double>(random()) / 4294967296.0 * 16 - 8) * 0.99993;
+      const double value = (static_cast<double>(random.word()) / 4294967296.0 * 16 - 8) * 0.99993;
       error.see(std::abs(scene::round_saturated<std::int16_t>(value * 4096) / 4096.0 - value));
     }
     CHECK(scene::round_saturated<std::int16_t>(1e300) == 0x7fff);

@@ -18,7 +18,6 @@
 using gpu::Corners;
 using gpu::Gpu;
 using gpu::Point;
-using stability::between;
 using stability::Measure;
 using stability::Random;
 using stability::send;
@@ -82,9 +81,9 @@ TEST_SUITE("stability") {
     on_every_target([&](unsigned factor) {
       Random random(1);
       for (int i = 0; i < 30; ++i) {
-        const int width = between(random, 1, 320), height = between(random, 1, 240);
-        const auto mesh = stability::triangulate(random, width, height, between(random, 5, 150));
-        const auto gpu = counter({between(random, 0, 700), between(random, 0, 270)});
+        const int width = random.between(1, 320), height = random.between(1, 240);
+        const auto mesh = stability::triangulate(random, width, height, random.between(5, 150));
+        const auto gpu = counter({random.between(0, 700), random.between(0, 270)});
         const auto at = gpu->state();
         for (const auto& t : mesh) send(*gpu, counting(t));
         wrong.see(
@@ -104,8 +103,8 @@ TEST_SUITE("stability") {
     on_every_target([&](unsigned factor) {
       Random random(2);
       for (int i = 0; i < 8; ++i) {
-        const int width = between(random, 260, 500), height = between(random, 260, 500);
-        const Point centre{between(random, 1, width - 1), between(random, 1, height - 1)};
+        const int width = random.between(260, 500), height = random.between(260, 500);
+        const Point centre{random.between(1, width - 1), random.between(1, height - 1)};
         const auto gpu = counter();
         for (const auto& t : stability::fan(centre, width, height, 1000)) send(*gpu, counting(t));
         wrong.see(wrong_hits(*gpu, 0, 0, width, height), factor * 1000);
@@ -127,7 +126,7 @@ TEST_SUITE("stability") {
       for (int y = 0; y <= cells; ++y) {
         for (int x = 0; x <= cells; ++x) {
           // At most 4 of 20: a quad that folds over its own diagonal is drawn twice, rightly.
-          const auto bend = [&](int at) { return at == 0 || at == cells ? 0 : between(random, -4, 4); };
+          const auto bend = [&](int at) { return at == 0 || at == cells ? 0 : random.between(-4, 4); };
           grid[static_cast<std::size_t>(y)][static_cast<std::size_t>(x)] = {x * size + bend(x),
                                                                             y * size + bend(y)};
         }

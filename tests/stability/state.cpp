@@ -14,7 +14,6 @@
 #include "stability/triangulation.h"
 
 using gpu::Gpu;
-using stability::between;
 using stability::Measure;
 using stability::Random;
 using stability::send;
@@ -56,7 +55,7 @@ TEST_SUITE("stability") {
                                    .mask_y = static_cast<std::uint8_t>(mask_v),
                                    .offset_x = static_cast<std::uint8_t>(offset_u),
                                    .offset_y = static_cast<std::uint8_t>(offset_v)});
-      const ot::Uv first{static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random())};
+      const ot::Uv first{static_cast<std::uint8_t>(random.word()), static_cast<std::uint8_t>(random.word())};
       const auto texel = [&](int du, int dv) {
         const int u = (first.u + du) & 255, v = (first.v + dv) & 255;
         return static_cast<std::uint16_t>(((u & ~(8 * mask_u)) | 8 * (offset_u & mask_u)) |
@@ -147,10 +146,10 @@ TEST_SUITE("stability") {
       std::ranges::fill(gpu->vram().pixels(), std::uint16_t{0x1111});
       gpu->begin_frame();
       for (int i = 0; i < 300; ++i) {
-        ot::DrawArea area{.left = static_cast<std::uint16_t>(between(random, 0, 1023)),
-                          .top = static_cast<std::uint16_t>(between(random, 0, 511)),
-                          .right = static_cast<std::uint16_t>(between(random, 0, 1023)),
-                          .bottom = static_cast<std::uint16_t>(between(random, 0, 511))};
+        ot::DrawArea area{.left = static_cast<std::uint16_t>(random.between(0, 1023)),
+                          .top = static_cast<std::uint16_t>(random.between(0, 511)),
+                          .right = static_cast<std::uint16_t>(random.between(0, 1023)),
+                          .bottom = static_cast<std::uint16_t>(random.between(0, 511))};
         if (area.left <= area.right && area.top <= area.bottom) {
           // By one pixel, or all the way.
           if (i % 3 == 0) std::swap(area.left, area.right);
@@ -159,7 +158,7 @@ TEST_SUITE("stability") {
         }
         if (area.left <= area.right && area.top <= area.bottom) continue;  // equal edges are a pixel
         send(*gpu, area);
-        const auto place = [&] { return xy(between(random, -100, 1000), between(random, -100, 500)); };
+        const auto place = [&] { return xy(random.between(-100, 1000), random.between(-100, 500)); };
         ot::Polygon polygon{.quad = i % 2 == 0, .gouraud = i % 4 < 2, .textured = i % 5 == 0};
         for (auto& corner : polygon.xy) corner = place();
         if (depth) {

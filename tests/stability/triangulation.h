@@ -3,19 +3,14 @@
 // must hit every pixel of the rectangle once and no other.
 
 #include <cstdint>
-#include <random>
 #include <vector>
 
 #include "gpu/columns.h"
+#include "tests/random.h"
 
 namespace stability {
 
-using Random = std::mt19937;  // its values are the same everywhere; the library's distributions are not
-
-/// low..high, both included; as good as uniform for the small ranges of these tests.
-inline int between(Random& random, int low, int high) {
-  return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
-}
+using tests::Random;
 
 /// Start with two triangles, then insert points: a triangle that holds the point, also on its border, is
 /// replaced by the triangles between the point and its edges. Slivers and needles come by themselves.
@@ -25,7 +20,7 @@ inline std::vector<gpu::Corners> triangulate(Random& random, int width, int heig
   const Point a{0, 0}, b{width, 0}, c{0, height}, d{width, height};
   std::vector<Corners> mesh{{a, b, c}, {b, d, c}};
   for (int i = 0; i < points; ++i) {
-    const Point p{between(random, 0, width), between(random, 0, height)};
+    const Point p{random.between(0, width), random.between(0, height)};
     std::vector<Corners> next;
     for (const auto& t : mesh) {
       const auto area = [](Point x, Point y, Point z) { return gpu::doubled_area({x, y, z}); };
