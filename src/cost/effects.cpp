@@ -109,7 +109,7 @@ scene::Knobs lowered(const scene::Knobs& knobs, std::string_view name) {
 }
 
 /// By ot::Blend.
-constexpr std::array blends{"", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
+constexpr std::array blend_names{"", ", B/2+F/2", ", B+F", ", B-F", ", B+F/4"};
 
 std::string kernel_name(const gpu::Mode& mode) {
   static constexpr std::array textures{"flat colour", "4-bit texture", "8-bit texture", "15-bit texture"};
@@ -121,14 +121,14 @@ std::string kernel_name(const gpu::Mode& mode) {
                                shades[static_cast<std::size_t>(mode.surface.shade)];
   if (mode.surface.dither) name += ", dither";
   if (mode.masked) name += ", masked";
-  name += blends[static_cast<std::size_t>(mode.blend)];
+  name += blend_names[static_cast<std::size_t>(mode.blend)];
   return mode.depth ? name + ", depth" : name;
 }
 
 std::string kernel_name(const gpu::canvas::Mode& mode) {
   static constexpr std::array textures{"colour", "4-bit texture", "8-bit texture", "15-bit texture"};
   std::string name = std::string("accurate: ") + textures[static_cast<std::size_t>(mode.texture)] +
-                     blends[static_cast<std::size_t>(mode.blend)];
+                     blend_names[static_cast<std::size_t>(mode.blend)];
   return mode.depth ? name + ", depth" : name;
 }
 

@@ -163,7 +163,7 @@ std::vector<bool> faces_of_closed_surfaces(const Mesh& mesh) {
   std::vector<std::uint64_t> edges;
   edges.reserve(mesh.faces.size() * 4);
   const auto each_edge = [&](const Face& face, auto&& visit) {
-    const std::size_t n = face.is_quad() ? 4 : 3;
+    const std::size_t n = face.corners();
     for (std::size_t i = 0; i < n; ++i) visit(same[face.vertex[i]], same[face.vertex[(i + 1) % n]]);
   };
   for (const Face& face : mesh.faces) {

@@ -210,7 +210,7 @@ bool set_antialias(Knobs& knobs, string_view value) {
 
 #define WORD(member) get_word<&Knobs::member>, set_word<&Knobs::member>
 
-constexpr std::array table{
+constexpr std::array rows{
     KnobInfo{"visibility", "ot|sorted|bsp|zbuffer",
              "which surface wins: ordering table, sorted list, BSP, z-buffer", WORD(visibility)},
     KnobInfo{"buckets", "1..65536", "entries of the ordering table", get_int<&Knobs::buckets>,
@@ -254,10 +254,10 @@ constexpr std::array table{
 
 }  // namespace
 
-std::span<const KnobInfo> knob_table() { return table; }
+std::span<const KnobInfo> knob_table() { return rows; }
 
 base::Result<void> set_knob(Knobs& knobs, std::string_view name, std::string_view value) {
-  for (const auto& knob : table) {
+  for (const auto& knob : rows) {
     if (knob.name != name) continue;
     if (knob.set(knobs, value)) return {};
     return base::fail("--" + std::string(name) + " " + std::string(value) + ": expected " +

@@ -42,7 +42,7 @@ glm::vec3 unit(glm::vec3 v) {
 
 // Newell's normal: right for quads that are not flat, too.
 glm::vec3 face_normal(const Mesh& mesh, const Face& face) {
-  const std::size_t n = face.is_quad() ? 4 : 3;
+  const std::size_t n = face.corners();
   glm::vec3 sum{0.0F};
   for (std::size_t i = 0; i < n; ++i) {
     const glm::vec3 a = mesh.positions[face.vertex[i]] - mesh.positions[face.vertex[0]];
@@ -55,7 +55,6 @@ glm::vec3 face_normal(const Mesh& mesh, const Face& face) {
 // Counter-clockwise with y up is counter-clockwise to the eye; the console's front is clockwise.
 constexpr std::array<std::size_t, 4> triangle_order{0, 2, 1, 3}, quad_order{0, 3, 1, 2};
 const auto& console_order(const Face& face) { return face.is_quad() ? quad_order : triangle_order; }
-std::size_t corners(const Face& face) { return face.is_quad() ? 4 : 3; }
 
 class Maker {
  public:
@@ -88,11 +87,11 @@ class Maker {
     sources_ = faces;
     model_ = &model;
     std::size_t count = 2 * lines.size();
-    for (const Face* face : faces) count += corners(*face);
+    for (const Face* face : faces) count += face->corners();
     corners_.reserve(count);
     for (std::size_t i = 0; i < faces.size(); ++i) {
       const Face& face = *faces[i];
-      for (std::size_t k = 0; k < corners(face); ++k) {
+      for (std::size_t k = 0; k < face.corners(); ++k) {
         const auto corner = static_cast<std::uint32_t>(4 * i + k);
         add(face.material, model.faces[i].vertex[k], normal_of(corner), has_normals(),
             face.colour[console_order(face)[k]], corner);
@@ -169,7 +168,7 @@ class Maker {
 
   static void texture_coordinates(const Face& face, const StoredTexture& texture,
                                   const std::array<std::size_t, 4>& order, ModelFace& out) {
-    const std::size_t n = face.is_quad() ? 4 : 3;
+    const std::size_t n = face.corners();
     double base_u = face.uv[0].x;
     double base_v = face.uv[0].y;
     for (std::size_t k = 1; k < n; ++k) {
@@ -219,7 +218,7 @@ Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources,
   std::vector<const Face*> faces;
   for (std::size_t i = 0; i < mesh.faces.size(); ++i) {
     const auto& face = mesh.faces[i];
-    if (!maker.is_drawable(std::span(face.vertex).first(corners(face)), face.material)) continue;
+    if (!maker.is_drawable(std::span(face.vertex).first(face.corners()), face.material)) continue;
     model.faces.push_back(maker.face(face, i < sources.size() ? sources[i] : static_cast<std::uint32_t>(i)));
     faces.push_back(&face);
   }
@@ -234,7 +233,7 @@ Model make_model(const Mesh& mesh, std::span<const std::uint32_t> sources,
   }
   model.colours = maker.number(faces, lines, model);
   for (auto& face : model.faces) {
-    const std::size_t n = face.is_quad() ? 4 : 3;
+    const std::size_t n = face.corners();
     face.gouraud = std::any_of(face.colour.begin() + 1, face.colour.begin() + static_cast<std::ptrdiff_t>(n),
                                [&](std::uint32_t c) { return c != face.colour[0]; });
   }

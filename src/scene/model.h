@@ -24,6 +24,7 @@ struct ModelFace {
   std::uint32_t source = 0;  ///< face of the scene's mesh
   bool gouraud = false;
   [[nodiscard]] bool is_quad() const { return vertex[3] != none; }
+  [[nodiscard]] std::size_t corners() const { return is_quad() ? 4 : 3; }
 };
 
 struct ModelLine {

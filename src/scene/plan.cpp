@@ -11,13 +11,13 @@ namespace {
 
 namespace canvas = gpu::canvas;
 
-int fraction_bits(Position position) {
+int bits_of(Position position) {
   constexpr std::array bits{0, 2, 4, 8};
   return bits[static_cast<std::size_t>(position)];
 }
 
 std::uint8_t fraction_mask(Position position) {
-  return static_cast<std::uint8_t>(0xff00 >> fraction_bits(position));
+  return static_cast<std::uint8_t>(0xff00 >> bits_of(position));
 }
 
 void choose_samples(const Antialias& antialias, canvas::Options& options) {
@@ -124,7 +124,7 @@ std::optional<canvas::Options> canvas_options(const Knobs& knobs, const World& w
                                               double units_per_world) {
   canvas::Options o;
   o.scale = knobs.resolution;
-  o.fraction_bits = fraction_bits(knobs.position);
+  o.fraction_bits = bits_of(knobs.position);
   o.perspective = knobs.texture == TextureAddress::perspective;
   o.filter = knobs.filter;
   o.colour = knobs.colour == Colour::bits24 ? canvas::Colour::bits24 : canvas::Colour::bits15;

@@ -17,7 +17,7 @@ struct Slope {
 // The farthest point from xs[from] that one edge can reach. xs[k] is the first whole pixel at or right of the
 // edge in row k: a slope s fits if xs[k] - 1 < xs[from] + s * (k - from) <= xs[k], and those that fit all
 // rows on the way lie between low (excluded) and high (included).
-std::size_t farthest(std::span<const std::int32_t> xs, std::size_t from) {
+std::size_t farthest_reach(std::span<const std::int32_t> xs, std::size_t from) {
   std::size_t best = from + 1;
   Slope low{xs[best] - xs[from] - 1, 1}, high{xs[best] - xs[from], 1};
   for (std::size_t k = from + 2; k < xs.size() && low.is_below(high); ++k) {
@@ -34,7 +34,7 @@ std::size_t farthest(std::span<const std::int32_t> xs, std::size_t from) {
 std::vector<Point> side(std::vector<std::int32_t> xs, std::int32_t top) {
   xs.push_back(xs.back());  // the lower end, in a row that no longer counts
   std::vector<Point> corners;
-  for (std::size_t k = 0;; k = farthest(xs, k)) {
+  for (std::size_t k = 0;; k = farthest_reach(xs, k)) {
     corners.push_back({xs[k], top + static_cast<std::int32_t>(k)});
     if (k + 1 == xs.size()) return corners;
   }

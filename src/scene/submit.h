@@ -88,7 +88,7 @@ class Submitter {
 
  private:
   void submit(const ModelFace& face) {
-    const std::size_t n = face.is_quad() ? 4 : 3;
+    const std::size_t n = face.corners();
     const auto& code = s_.projected->code;
     unsigned any = 0;
     unsigned all = 0xff;

@@ -17,18 +17,16 @@ constexpr float close = 1e-4F;       // a point nearer to a line than this lies 
 bool comes_first(glm::vec3 a, glm::vec3 b) { return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z); }
 
 // A corner of a face or of a part of it.
-struct Point {
+struct FacePoint {
   std::uint32_t vertex = 0;
   glm::vec2 uv{0.0F};
   glm::vec3 colour{0.0F};
 };
-using Polygon = std::vector<Point>;
-
-std::size_t corners(const Face& face) { return face.is_quad() ? 4 : 3; }
+using Polygon = std::vector<FacePoint>;
 
 bool is_sound(const Mesh& mesh, const Face& face, std::size_t materials) {
   if (face.material >= materials) return false;
-  return std::all_of(face.vertex.begin(), face.vertex.begin() + static_cast<std::ptrdiff_t>(corners(face)),
+  return std::all_of(face.vertex.begin(), face.vertex.begin() + static_cast<std::ptrdiff_t>(face.corners()),
                      [&](std::uint32_t v) {
                        if (v >= mesh.positions.size()) return false;
                        const glm::vec3 p = mesh.positions[v];
@@ -38,7 +36,7 @@ bool is_sound(const Mesh& mesh, const Face& face, std::size_t materials) {
 
 Polygon polygon_of(const Face& face) {
   Polygon out;
-  for (std::size_t k = 0; k < corners(face); ++k)
+  for (std::size_t k = 0; k < face.corners(); ++k)
     out.push_back({face.vertex[k], face.uv[k], {face.colour[k].r, face.colour[k].g, face.colour[k].b}});
   return out;
 }
@@ -52,12 +50,12 @@ class Cutter {
     out_.lines = mesh.lines;
   }
 
-  [[nodiscard]] glm::vec3 position(const Point& p) const { return out_.positions[p.vertex]; }
+  [[nodiscard]] glm::vec3 position(const FacePoint& p) const { return out_.positions[p.vertex]; }
 
   /// A new vertex between two.
-  Point between(const Point& a, const Point& b, double t) {
+  FacePoint between(const FacePoint& a, const FacePoint& b, double t) {
     const auto f = static_cast<float>(t);
-    Point out;
+    FacePoint out;
     out.vertex = static_cast<std::uint32_t>(out_.positions.size());
     out_.positions.push_back(edge_point(position(a), position(b), t));
     if (!out_.normals.empty()) {
@@ -70,7 +68,7 @@ class Cutter {
     return out;
   }
 
-  void add_face(std::span<const Point> polygon, std::uint32_t material, std::uint32_t source) {
+  void add_face(std::span<const FacePoint> polygon, std::uint32_t material, std::uint32_t source) {
     Face face;
     face.material = material;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
@@ -90,7 +88,7 @@ class Cutter {
     if (polygon.size() < 3) return;
     if (polygon.size() == 3 || (polygon.size() == 4 && has_four_corners(polygon)))
       return add_face(polygon, material, source);
-    Point middle = between(polygon[0], polygon[polygon.size() / 2], 0.5);
+    FacePoint middle = between(polygon[0], polygon[polygon.size() / 2], 0.5);
     glm::dvec3 sum{0.0};
     glm::vec2 uv{0.0F};
     glm::vec3 colour{0.0F};
@@ -130,16 +128,16 @@ class Cutter {
 
 // The grid of points of one face: quads [row][column] from corner 0 along 0-1 and
 // 0-3, triangles the half of it.
-class Grid {
+class FaceGrid {
  public:
-  Grid(Cutter& cutter, const Polygon& face, int n) : cutter_(cutter), face_(face), n_(n) {
+  FaceGrid(Cutter& cutter, const Polygon& face, int n) : cutter_(cutter), face_(face), n_(n) {
     points_.resize(static_cast<std::size_t>((n + 1) * (n + 1)));
     const bool quad = face.size() == 4;
     for (int row = 0; row <= n; ++row) {
       // Both ends of a row lie on edges of the face; what is between depends on them.
       const int last = quad ? n : n - row;
-      const Point left = on_edge(0, quad ? 3 : 2, row);
-      const Point right = on_edge(1, 2, row);
+      const FacePoint left = on_edge(0, quad ? 3 : 2, row);
+      const FacePoint right = on_edge(1, 2, row);
       at(0, row) = left;
       if (last > 0) at(last, row) = right;
       for (int column = 1; column < last; ++column)
@@ -149,10 +147,10 @@ class Grid {
                               : cutter_.between(left, right, static_cast<double>(column) / last);
     }
   }
-  Point& at(int column, int row) { return points_[static_cast<std::size_t>(row * (n_ + 1) + column)]; }
+  FacePoint& at(int column, int row) { return points_[static_cast<std::size_t>(row * (n_ + 1) + column)]; }
 
  private:
-  Point on_edge(std::size_t from, std::size_t to, int k) {
+  FacePoint on_edge(std::size_t from, std::size_t to, int k) {
     if (k == 0) return face_[from];
     if (k == n_) return face_[to];
     return cutter_.between(face_[from], face_[to], static_cast<double>(k) / n_);
@@ -160,7 +158,7 @@ class Grid {
   Cutter& cutter_;
   const Polygon& face_;
   int n_;
-  std::vector<Point> points_;
+  std::vector<FacePoint> points_;
 };
 
 Mesh subdivided(const Mesh& mesh, std::span<const std::uint32_t> given, std::size_t materials, int n,
@@ -170,7 +168,7 @@ Mesh subdivided(const Mesh& mesh, std::span<const std::uint32_t> given, std::siz
     const Face& face = mesh.faces[f];
     if (!is_sound(mesh, face, materials)) continue;
     const Polygon polygon = polygon_of(face);
-    Grid grid(cutter, polygon, n);
+    FaceGrid grid(cutter, polygon, n);
     for (int row = 0; row < n; ++row) {
       for (int column = 0; column < (face.is_quad() ? n : n - row); ++column) {
         const auto& a = grid.at(column, row);
@@ -294,8 +292,8 @@ class Repeats {
                   period_of(textures_[texture].v, polygon, 1, too_many_)};
     for (auto& p : polygon) snap(p, periods);
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Point& a = polygon[k];
-      const Point& b = polygon[(k + 1) % polygon.size()];
+      const FacePoint& a = polygon[k];
+      const FacePoint& b = polygon[(k + 1) % polygon.size()];
       for (int axis = 0; axis < 2; ++axis) {
         const int period = periods.of[static_cast<std::size_t>(axis)];
         if (period == 0) continue;
@@ -310,8 +308,8 @@ class Repeats {
     for (auto& p : polygon) snap(p, periods);
     Polygon out;
     for (std::size_t k = 0; k < polygon.size(); ++k) {
-      const Point& a = polygon[k];
-      const Point& b = polygon[(k + 1) % polygon.size()];
+      const FacePoint& a = polygon[k];
+      const FacePoint& b = polygon[(k + 1) % polygon.size()];
       out.push_back(a);
       for (const double t : edges_.between(cutter.position(a), cutter.position(b))) {
         out.push_back(cutter.between(a, b, t));
@@ -323,7 +321,7 @@ class Repeats {
 
   // A point made for a line lies on the line, whatever the arithmetic: otherwise a slice would cut the edge
   // once more, for one of its faces only.
-  static void snap(Point& p, const Periods& periods) {
+  static void snap(FacePoint& p, const Periods& periods) {
     for (int axis = 0; axis < 2; ++axis) {
       const auto step = static_cast<float>(periods.of[static_cast<std::size_t>(axis)]);
       if (step == 0) continue;
@@ -333,7 +331,8 @@ class Repeats {
   }
 
   // The same to the bit for both parts that the edge belongs to.
-  static Point crossing(Cutter& cutter, const Point& a, const Point& b, double at_a, double at_b) {
+  static FacePoint crossing(Cutter& cutter, const FacePoint& a, const FacePoint& b, double at_a,
+                            double at_b) {
     if (comes_first(cutter.position(b), cutter.position(a))) return crossing(cutter, b, a, at_b, at_a);
     return cutter.between(a, b, at_a / (at_a - at_b));
   }
@@ -343,21 +342,21 @@ class Repeats {
     const auto along = static_cast<int>(axis);
     std::vector<Polygon> out;
     for (Polygon rest : parts) {
-      const auto [low, high] =
-          std::minmax_element(rest.begin(), rest.end(),
-                              [along](const Point& a, const Point& b) { return a.uv[along] < b.uv[along]; });
+      const auto [low, high] = std::minmax_element(
+          rest.begin(), rest.end(),
+          [along](const FacePoint& a, const FacePoint& b) { return a.uv[along] < b.uv[along]; });
       for (const float line : lines_between(low->uv[along], high->uv[along], period)) {
         Polygon below;
         Polygon above;
         for (std::size_t k = 0; k < rest.size(); ++k) {
-          const Point& a = rest[k];
-          const Point& b = rest[(k + 1) % rest.size()];
+          const FacePoint& a = rest[k];
+          const FacePoint& b = rest[(k + 1) % rest.size()];
           const float at_a = a.uv[along] - line;
           const float at_b = b.uv[along] - line;
           if (at_a <= 0) below.push_back(a);
           if (at_a >= 0) above.push_back(a);
           if (at_a * at_b < 0) {
-            Point p = crossing(cutter, a, b, static_cast<double>(at_a), static_cast<double>(at_b));
+            FacePoint p = crossing(cutter, a, b, static_cast<double>(at_a), static_cast<double>(at_b));
             p.uv[along] = line;
             below.push_back(p);
             above.push_back(p);

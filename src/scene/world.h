@@ -61,6 +61,7 @@ struct Face {
   std::array<Rgb8, 4> colour{};               ///< 128 = the texel unchanged; untextured: the colour itself
   std::uint32_t material = 0;                 ///< index into World::materials
   [[nodiscard]] bool is_quad() const { return vertex[3] != none; }
+  [[nodiscard]] std::size_t corners() const { return is_quad() ? 4 : 3; }
 };
 
 /// A segment or, with equal ends, a dot. Lines have no depth on the console: they are sorted, never tested.

@@ -47,6 +47,9 @@ struct Console {
 
 Console& the_console();
 
+/// The low 16 bits, as a register of the console takes them.
+constexpr std::int16_t half(int value) { return static_cast<std::int16_t>(value); }
+
 /// On the program's thread, after a vertical blank: controllers, then the program's callback.
 void after_blank();
 

@@ -11,11 +11,10 @@
 
 namespace {
 
+using sdk::half;
 using sdk::the_console;
 
 constexpr gte::Command rt_v0 = 0x0486012, rt_ir = 0x049e012, rt_ir_tr = 0x0498012;
-
-std::int16_t half(int value) { return static_cast<std::int16_t>(value); }
 
 void load_rotation(const MATRIX& m) {
   for (std::size_t r = 0; r < 3; ++r) {

@@ -13,7 +13,7 @@
 
 namespace {
 
-std::int16_t half(int value) { return static_cast<std::int16_t>(value); }
+using sdk::half;
 
 MATRIX about_x(int angle) {
   const auto s = half(isin(angle)), c = half(icos(angle));

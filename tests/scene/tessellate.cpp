@@ -70,7 +70,7 @@ using Edge = std::array<float, 6>;
 std::set<Edge> open_edges(const Mesh& mesh) {
   std::map<Edge, int> count;
   for (const auto& face : mesh.faces) {
-    const std::size_t n = face.is_quad() ? 4 : 3;
+    const std::size_t n = face.corners();
     for (std::size_t k = 0; k < n; ++k) {
       const glm::vec3 a = mesh.positions[face.vertex[k]];
       const glm::vec3 b = mesh.positions[face.vertex[(k + 1) % n]];

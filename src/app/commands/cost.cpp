@@ -26,7 +26,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct CostOptions {
   std::vector<std::string> scenes;
   std::vector<std::string> axes;
   bool quick = false;
@@ -49,7 +49,7 @@ base::Result<std::vector<const cost::Axis*>> chosen_axes(const std::vector<std::
   return list;
 }
 
-std::string command_line(const Options& o) {
+std::string command_line(const CostOptions& o) {
   std::string text = "otter cost";
   for (const auto& scene : o.scenes) text += " " + scene;
   for (std::size_t i = 0; i < o.axes.size(); ++i) text += (i == 0 ? " --axes " : ",") + o.axes[i];
@@ -67,7 +67,7 @@ base::Result<void> write(const std::string& name, const std::string& text) {
   return base::fail("standard output: cannot be written", base::Exit::failed);
 }
 
-base::Result<void> write_all(const Options& o, const cost::Report& report) {
+base::Result<void> write_all(const CostOptions& o, const cost::Report& report) {
   const bool stdout_taken = o.json == "-" || o.csv == "-" || o.html == "-";
   if (auto done = write(stdout_taken ? "" : "-", cost::to_text(report)); !done) return done;
   if (!o.json.empty()) {
@@ -84,7 +84,7 @@ base::Result<void> write_all(const Options& o, const cost::Report& report) {
 }
 
 /// What can be known before minutes are spent: the folder is there, and only one report goes to stdout.
-base::Result<void> check_outputs(const Options& o) {
+base::Result<void> check_outputs(const CostOptions& o) {
   namespace fs = std::filesystem;
   const std::array names{&o.json, &o.csv, &o.html};
   if (std::ranges::count(names, "-", [](const std::string* name) { return *name; }) > 1) {
@@ -104,7 +104,7 @@ base::Result<void> check_outputs(const Options& o) {
   return {};
 }
 
-base::Result<int> run_cost(Options& o) {
+base::Result<int> run_cost(CostOptions& o) {
   if (o.scenes.empty()) o.scenes = {"crates", "corridor"};
   cost::SweepOptions sweep;
   auto axes = chosen_axes(o.axes);
@@ -158,7 +158,7 @@ base::Result<int> run_cost(Options& o) {
 }  // namespace
 
 Action add_cost(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CostOptions>();
   arguments.positionals("scene", "SCENE|FILE", options->scenes, "scenes or files [crates corridor]");
   arguments.words("--axes", "A,B", options->axes, "measure these axes alone, and no combinations");
   arguments.flag("--quick", options->quick, "fewer settings: under a minute");

@@ -16,13 +16,13 @@
 namespace app {
 namespace {
 
-struct Options {
+struct EffectsOptions {
   std::string scene, json;
   std::uint32_t frame = 0;
   scene::Knobs knobs;
 };
 
-base::Result<int> run_effects(const Options& options) {
+base::Result<int> run_effects(const EffectsOptions& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
   const auto scene = open_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
@@ -52,7 +52,7 @@ base::Result<int> run_effects(const Options& options) {
 }  // namespace
 
 Action add_effects(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<EffectsOptions>();
   arguments.positional("scene", "SCENE|FILE", options->scene, "a scene of `otter list`, or a file",
                        Presence::required);
   arguments.number("--frame", "N", options->frame, std::uint32_t{0}, std::uint32_t{1'000'000'000},

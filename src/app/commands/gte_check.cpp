@@ -13,14 +13,14 @@
 namespace app {
 namespace {
 
-struct Options {
+struct GteCheckOptions {
   std::string file;
   bool all = false;
 };
 
 constexpr std::uint64_t max_csv_bytes = std::uint64_t{1} << 30;
 
-base::Result<int> gte_check(const Options& options) {
+base::Result<int> gte_check(const GteCheckOptions& options) {
   const auto bytes = base::read_file(options.file, max_csv_bytes);
   if (!bytes) return tl::make_unexpected(bytes.error());
   const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
@@ -34,7 +34,7 @@ base::Result<int> gte_check(const Options& options) {
 }  // namespace
 
 Action add_gte_check(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GteCheckOptions>();
   arguments.positional("file", "FILE.csv", options->file,
                        "idx,op,cmd,in0..in63,out0..out63 in hexadecimal, header row first",
                        Presence::required);

@@ -34,7 +34,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct InspectOptions {
   std::string source, frame, frames, pixel, json, heatmap, overdraw, ids, truth, depth_map;
   std::int64_t max = -1;
   scene::Knobs knobs;
@@ -194,7 +194,7 @@ std::optional<std::uint32_t> number(std::string_view text) {
   return value;
 }
 
-base::Result<FrameRange> asked_frames(const Options& options, std::uint32_t first) {
+base::Result<FrameRange> asked_frames(const InspectOptions& options, std::uint32_t first) {
   if (!options.frames.empty()) {
     if (!options.frame.empty()) return base::fail("--frames: expected no --frame beside it");
     const auto dots = options.frames.find("..");
@@ -213,7 +213,7 @@ base::Result<FrameRange> asked_frames(const Options& options, std::uint32_t firs
   return FrameRange{*only, *only};
 }
 
-base::Result<FrameRange> frames_of(const Options& options, const FrameRange& available) {
+base::Result<FrameRange> frames_of(const InspectOptions& options, const FrameRange& available) {
   auto asked = asked_frames(options, available.first);
   if (asked && (asked->first < available.first || asked->last > available.last)) {
     const auto missing = asked->first < available.first ? asked->first : asked->last;
@@ -228,7 +228,7 @@ struct Position {
   int x, y;
 };
 
-base::Result<std::optional<Position>> pixel_of(const Options& options) {
+base::Result<std::optional<Position>> pixel_of(const InspectOptions& options) {
   if (options.pixel.empty()) return std::nullopt;
   const auto comma = options.pixel.find(',');
   const auto x = number(std::string_view(options.pixel).substr(0, comma));
@@ -246,7 +246,7 @@ bool is_dump(const std::string& source) {
   return kind && *kind == base::FileKind::dump;
 }
 
-base::Result<std::unique_ptr<Source>> open(const Options& options) {
+base::Result<std::unique_ptr<Source>> open(const InspectOptions& options) {
   if (is_dump(options.source)) {
     const auto visibility = options.knobs.visibility;
     if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
@@ -263,7 +263,8 @@ base::Result<std::unique_ptr<Source>> open(const Options& options) {
   return std::make_unique<SceneSource>(std::move(*scene), options.knobs);
 }
 
-base::Result<void> write_pictures(const Options& options, const Watched& watched, const gpu::Trace& trace) {
+base::Result<void> write_pictures(const InspectOptions& options, const Watched& watched,
+                                  const gpu::Trace& trace) {
   const auto& report = watched.report;
   const auto write = [](const std::string& path, auto&& make) {
     return path.empty() ? base::Result<void>{} : display::write_png(path, make());
@@ -297,7 +298,7 @@ base::Result<void> write_json(const std::string& path, inspect::FramesJson& json
   return {};
 }
 
-base::Result<int> run(const Options& options) {
+base::Result<int> run(const InspectOptions& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
   const auto pixel = pixel_of(options);
   if (!pixel) return tl::make_unexpected(pixel.error());
@@ -358,7 +359,7 @@ base::Result<int> run(const Options& options) {
 }  // namespace
 
 Action add_inspect(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<InspectOptions>();
   const auto file = [&](const char* name, std::string& path, const char* help) {
     arguments.text(name, "FILE", path, help);
   };

@@ -12,7 +12,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct ListOptions {
   bool names = false, is_long = false;
 };
 
@@ -22,7 +22,7 @@ std::string padded(std::string_view text, std::size_t width) {
   return out;
 }
 
-base::Result<int> list(const Options& options) {
+base::Result<int> list(const ListOptions& options) {
   std::size_t width = 0;
   for (const auto& demo : demos::all()) width = std::max(width, demo.name.size());
   for (const auto& demo : demos::all()) {
@@ -37,7 +37,7 @@ base::Result<int> list(const Options& options) {
 }  // namespace
 
 Action add_list(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ListOptions>();
   arguments.flag("--names", options->names, "names alone, one a line");
   arguments.flag("--long", options->is_long, "what to look for in each, too");
   arguments.exclude("--long", "--names");

@@ -17,7 +17,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct RecordOptions {
   std::string scene, output, format = "standard";
   std::uint32_t frames = 1;
   bool annotate = false;
@@ -37,7 +37,7 @@ void report(const SnapCost& cost) {
               static_cast<unsigned long long>(cost.worst_pixels));
 }
 
-base::Result<int> record_scene(const Options& options) {
+base::Result<int> record_scene(const RecordOptions& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
   const auto scene = open_scene(options.scene);
   if (!scene) return tl::make_unexpected(scene.error());
@@ -74,7 +74,7 @@ base::Result<int> record_scene(const Options& options) {
 }  // namespace
 
 Action add_record(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RecordOptions>();
   arguments.positional("scene", "SCENE|FILE", options->scene, "a scene of `otter list`, or a file",
                        Presence::required);
   arguments.text("-o,--output", "FILE", options->output,

@@ -22,7 +22,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct RenderOptions {
   std::string scene, output, directory = "out";
   bool all = false;
   std::int64_t frame = 0;
@@ -30,7 +30,7 @@ struct Options {
 };
 
 // Draws one frame, writes it, and says in one line what was drawn.
-base::Result<void> render_one(scene::Scene scene, const Options& options,
+base::Result<void> render_one(scene::Scene scene, const RenderOptions& options,
                               const std::filesystem::path& output) {
   const std::string name = scene.name;
   Viewer machine(std::move(scene), options.knobs);
@@ -60,7 +60,7 @@ base::Result<void> render_one(scene::Scene scene, const Options& options,
   return {};
 }
 
-base::Result<int> render_all(const Options& options) {
+base::Result<int> render_all(const RenderOptions& options) {
   std::error_code error;
   std::filesystem::create_directories(options.directory, error);
   if (error) {
@@ -80,7 +80,7 @@ base::Result<int> render_all(const Options& options) {
   return 0;
 }
 
-base::Result<int> render(const Options& options) {
+base::Result<int> render(const RenderOptions& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
   if (options.all) {
     if (!options.scene.empty()) return base::fail("--all: expected no scene beside it, got " + options.scene);
@@ -102,7 +102,7 @@ base::Result<int> render(const Options& options) {
 }  // namespace
 
 Action add_render(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RenderOptions>();
   arguments.positional("scene", "SCENE|FILE", options->scene,
                        "a scene of `otter list`, or an .obj or .x3d file");
   arguments.text("-o,--output", "FILE", options->output, "the PNG file to write");

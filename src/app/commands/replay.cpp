@@ -25,7 +25,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct ReplayOptions {
   std::string dump, vram, output, readback;
   std::optional<std::uint64_t> frame, until;
   std::uint64_t repeat = 0;
@@ -33,7 +33,7 @@ struct Options {
   scene::Knobs knobs;
 };
 
-base::Result<void> check(const Options& options, const dump::Dump& dump) {
+base::Result<void> check(const ReplayOptions& options, const dump::Dump& dump) {
   if (options.frame && *options.frame > dump.vsyncs) {
     return base::fail("--frame " + std::to_string(*options.frame) + ": " + options.dump + " has " +
                       std::to_string(dump.vsyncs) + " VSync packets");
@@ -60,7 +60,7 @@ std::uint64_t best_nanoseconds(const dump::Dump& dump, const dump::ReplayOptions
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(best).count());
 }
 
-base::Result<void> save(const Options& options, const gpu::Gpu& gpu,
+base::Result<void> save(const ReplayOptions& options, const gpu::Gpu& gpu,
                         const std::vector<std::uint32_t>& readback) {
   if (!options.vram.empty()) {
     if (auto written = display::save_vram(options.vram, gpu.vram()); !written) return written;
@@ -93,7 +93,7 @@ void print_summary(const std::string& name, const dump::Dump& dump) {
               static_cast<unsigned long long>(dump.drawing_commands));
 }
 
-base::Result<int> replay(const Options& options) {
+base::Result<int> replay(const ReplayOptions& options) {
   const auto visibility = options.knobs.visibility;
   if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
     return base::fail("--visibility: a dump can be drawn by ot, in its own order, or by zbuffer");
@@ -143,7 +143,7 @@ base::Result<int> replay(const Options& options) {
 }  // namespace
 
 Action add_replay(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReplayOptions>();
   constexpr std::uint64_t most = std::uint64_t{1} << 40;
   arguments.positional("dump", "DUMP", options->dump,
                        "a GPU dump (v1r1 or v1), plain or packed as .zst or .xz", Presence::required);

@@ -30,7 +30,7 @@
 namespace app {
 namespace {
 
-struct Options {
+struct WalkOptions {
   std::string image, head, table, vram_in, vram;
   scene::Knobs knobs;
 };
@@ -161,7 +161,7 @@ gpu::FrameEnd draw(const ot::MainRam& ram, std::uint32_t head, std::uint32_t all
   return end;
 }
 
-base::Result<int> walk(const Options& options) {
+base::Result<int> walk(const WalkOptions& options) {
   const auto visibility = options.knobs.visibility;
   if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
     return base::fail("--visibility: a list can be drawn by ot, in its own order, or by zbuffer");
@@ -215,7 +215,7 @@ base::Result<int> walk(const Options& options) {
 }  // namespace
 
 Action add_walk(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WalkOptions>();
   arguments.positional("image", "RAM.bin", options->image, "2 or 8 MiB of main RAM as an emulator saves it",
                        Presence::required);
   arguments.text("--head", "ADDR", options->head, "the first tag of the list, hexadecimal",

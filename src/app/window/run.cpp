@@ -15,13 +15,13 @@
 namespace app {
 namespace {
 
-struct Options {
+struct RunOptions {
   std::string scene, pace = "vsync";
   WindowOptions window;
 };
 
 // The demos, and before them a file if one was named; the one that was named is shown first.
-base::Result<int> run(Options& options) {
+base::Result<int> run(RunOptions& options) {
   auto& window = options.window;
   if (auto checked = scene::check_knobs(window.first.knobs); !checked)
     return tl::make_unexpected(checked.error());
@@ -45,7 +45,7 @@ base::Result<int> run(Options& options) {
 }  // namespace
 
 Action add_run(Arguments arguments) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<RunOptions>();
   auto& window = options->window;
   arguments.positional("scene", "SCENE|FILE", options->scene,
                        "a scene of `otter list` [the first], or an .obj or .x3d file");

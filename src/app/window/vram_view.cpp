@@ -12,7 +12,7 @@ namespace {
 
 constexpr ImU32 display_colour = IM_COL32(0xf2, 0xa3, 0x3a, 255);
 constexpr ImU32 drawing_colour = IM_COL32(0x4c, 0xc8, 0xff, 255);
-constexpr ImU32 box_colour = IM_COL32(0x14, 0x14, 0x1c, 0xd8);
+constexpr ImU32 label_colour = IM_COL32(0x14, 0x14, 0x1c, 0xd8);
 
 struct View {
   Rect place;
@@ -32,7 +32,7 @@ void outline(const View& view, int x, int y, int width, int height, ImU32 colour
   list->AddRect(low, high, colour);
   const ImVec2 size = ImGui::CalcTextSize(name);
   const float top = low.y + name_y * (size.y + 6) + 2;
-  list->AddRectFilled({low.x + 2, top}, {low.x + 10 + size.x, top + size.y + 4}, box_colour);
+  list->AddRectFilled({low.x + 2, top}, {low.x + 10 + size.x, top + size.y + 4}, label_colour);
   list->AddText({low.x + 6, top + 2}, colour, name);
 }
 

@@ -8,9 +8,9 @@
 namespace app {
 namespace {
 
-constexpr std::array table{
+constexpr std::array key_bindings{
     Binding{KeyAction::switch_visibility, "Tab", "", "a",
-            "switch between the ordering table and the z-buffer"},
+            "switch between the ordering key_bindings and the z-buffer"},
     Binding{KeyAction::split, "V", "", "b", "split screen: both, with a divider to drag"},
     Binding{KeyAction::differences, "D", "", "x", "show the pixels on which the two differ"},
     Binding{KeyAction::next_visibility, "M", "", "", "next mode: ot, sorted, bsp, zbuffer"},
@@ -76,19 +76,19 @@ int next_power(int buckets, bool up) {
 
 }  // namespace
 
-std::span<const Binding> bindings() { return table; }
+std::span<const Binding> bindings() { return key_bindings; }
 std::span<const Gesture> gestures() { return held; }
 
 std::optional<Asked> asked_by_key(std::string_view key) {
   if (key.size() == 1 && key[0] >= '1' && key[0] <= '9') return Asked{KeyAction::select_scene, key[0] - '1'};
-  for (const auto& row : table) {
+  for (const auto& row : key_bindings) {
     if (!key.empty() && (row.key == key || row.other_key == key)) return Asked{row.action};
   }
   return std::nullopt;
 }
 
 std::optional<Asked> asked_by_button(std::string_view button) {
-  for (const auto& row : table) {
+  for (const auto& row : key_bindings) {
     if (!button.empty() && row.button == button) return Asked{row.action};
   }
   return std::nullopt;
@@ -100,7 +100,7 @@ std::string key_help() {
     keys.resize(std::max<std::size_t>(keys.size() + 1, 32), ' ');
     text.append("  ").append(keys).append(does).append("\n");
   };
-  for (const auto& row : table) {
+  for (const auto& row : key_bindings) {
     std::string keys(row.key);
     if (!row.other_key.empty()) keys.append(", ").append(row.other_key);
     line(keys, row.does);

@@ -135,18 +135,19 @@ void dots(Context& context, const xml_node& node, Drawing& drawing) {
   drawing.dots(context.pairs(node, "point"));
 }
 
-struct Kind {
+struct Planar {
   std::string_view name;
   void (*draw)(Context&, const xml_node&, Drawing&);
 };
-constexpr std::array kinds{
-    Kind{"TriangleSet2D", &triangles}, Kind{"Rectangle2D", &rectangle}, Kind{"Disk2D", &disk},
-    Kind{"Circle2D", &circle},         Kind{"Arc2D", &open_arc},        Kind{"ArcClose2D", &closed_arc},
-    Kind{"Polyline2D", &polyline},     Kind{"Polypoint2D", &dots}};
+constexpr std::array planar_kinds{
+    Planar{"TriangleSet2D", &triangles}, Planar{"Rectangle2D", &rectangle}, Planar{"Disk2D", &disk},
+    Planar{"Circle2D", &circle},         Planar{"Arc2D", &open_arc},        Planar{"ArcClose2D", &closed_arc},
+    Planar{"Polyline2D", &polyline},     Planar{"Polypoint2D", &dots}};
 
-const Kind* kind_of(std::string_view name) {
-  const auto* kind = std::find_if(kinds.begin(), kinds.end(), [&](const Kind& k) { return k.name == name; });
-  return kind == kinds.end() ? nullptr : kind;
+const Planar* kind_of(std::string_view name) {
+  const auto* kind =
+      std::find_if(planar_kinds.begin(), planar_kinds.end(), [&](const Planar& k) { return k.name == name; });
+  return kind == planar_kinds.end() ? nullptr : kind;
 }
 
 }  // namespace
@@ -154,7 +155,7 @@ const Kind* kind_of(std::string_view name) {
 bool is_2d_node(std::string_view name) { return kind_of(name) != nullptr; }
 
 bool read_2d(Context& context, const xml_node& node, const Look& look, Geometry& geometry) {
-  const Kind* kind = kind_of(node.name());
+  const Planar* kind = kind_of(node.name());
   if (kind == nullptr) return false;
   Look unlit = look;
   unlit.material.lit = false;
