@@ -7,6 +7,7 @@ namespace gpu {
 
 void Gpu::gp1(std::uint32_t word) {
   using gp1::Command;
+  ++next_command_;
   switch (gp1::command_of(word)) {
     case Command::reset:
       abort_command();

@@ -280,7 +280,7 @@ void Gpu::take_depth() {
   }
 }
 
-void Gpu::begin_command() { current_.command_number = next_command_++; }
+void Gpu::begin_command() { current_.command_number = next_command_ - 1; }
 
 void Gpu::note(Kind kind) {
   ++counters_.primitives[static_cast<std::size_t>(kind)];

@@ -7,7 +7,10 @@
 
 namespace gpu {
 
-Gpu::Gpu() { gp1(0); }
+Gpu::Gpu() {
+  gp1(0);
+  next_command_ = 0;
+}
 Gpu::~Gpu() = default;
 Gpu::Gpu(Gpu&&) noexcept = default;
 Gpu& Gpu::operator=(Gpu&&) noexcept = default;

@@ -35,7 +35,7 @@ struct Options;
 /// What became of the polygons of a z-buffered frame.
 struct FrameEnd {
   std::uint32_t polygons_without_depth = 0;  ///< drawn in list order, neither tested nor stored
-  std::uint32_t first_without_depth = 0;     ///< command number of the first, from 0, if there is any
+  std::uint32_t first_without_depth = 0;     ///< of the first, if any: Primitive::command_number
   std::uint32_t queued = 0;                  ///< semi-transparent polygons drawn in the second pass
 };
 
@@ -79,6 +79,7 @@ class Gpu {
   [[nodiscard]] const Vram& vram() const { return vram_; }
   [[nodiscard]] const Display& display() const { return display_; }
   [[nodiscard]] const DrawState& state() const { return current_.state; }
+  [[nodiscard]] const ClutCache& palette() const { return clut_; }
 
   /// Polygons draw inside these limits only; nothing: everywhere. The columns stay the
   /// caller's, until the next call. On a canvas its own pixels are meant, and it may have one sample each.

@@ -76,6 +76,7 @@ const std::uint32_t* Gpu::gather(const std::uint32_t* at, const std::uint32_t* e
 }
 
 void Gpu::execute(const std::uint32_t* words) {
+  ++next_command_;
   switch (openings[gp0::Opcode::get(words[0])].command) {
     case gp0::Command::nop:
     case gp0::Command::annotation:  // run_commands has them

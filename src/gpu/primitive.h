@@ -27,7 +27,7 @@ inline constexpr int kind_count = 6;
 struct Primitive {
   Kind kind = Kind::polygon;
   std::uint32_t command = 0;         ///< the command word; a fill's holds its colour
-  std::uint32_t command_number = 0;  ///< counts commands from 0; the segments of a polyline share one
+  std::uint32_t command_number = 0;  ///< among the words sent since the frame began, from 0
   std::uint32_t bucket = no_bucket;  ///< of the ordering table, if whoever feeds the words knows it
   DrawState state;                   ///< for a textured polygon, after its page took effect
   std::uint16_t clut = 0;            ///< as transmitted; bit 15 means nothing

@@ -8,6 +8,7 @@
 #include "gpu/counters.h"
 #include "gpu/depth.h"
 #include "gpu/primitive.h"
+#include "gpu/texel_reads.h"
 #include "gpu/trace.h"
 #include "gpu/vram.h"
 
@@ -21,8 +22,9 @@ struct Surface {
   DepthPlane* depth = nullptr;
   Trace* trace = nullptr;  ///< notes every written pixel under `draw`
   std::uint32_t draw = 0;
-  const Limits* limits = nullptr;  ///< polygons only; nullptr: none
-  std::uint8_t half = 0;           ///< 1 while the second triangle of a quad is drawn
+  const Limits* limits = nullptr;     ///< polygons only; nullptr: none
+  std::uint8_t half = 0;              ///< 1 while the second triangle of a quad is drawn
+  const TexelSink* texels = nullptr;  ///< is told where texels lie; then nothing is drawn
 };
 
 void draw_polygon(const Surface& surface, const Primitive& primitive, Pass pass);

@@ -51,6 +51,7 @@ bool has_adjacent_texels(const Job& job, TexelFormat texture) {
 
 void run(const Surface& surface, const Mode& mode, const Job& job, std::span<const Span> spans,
          bool in_order) {
+  if (surface.texels != nullptr) return tell_texels(mode, job, spans, *surface.texels);
   ++surface.counters.kernels[mode.index()];
   if (surface.trace != nullptr) {
     draw_watched(mode, job, spans, {surface.trace, surface.draw, surface.half});

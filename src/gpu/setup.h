@@ -59,6 +59,9 @@ bool samples_what_it_draws(const DrawState& state, const Box& drawn);
 /// Whether a row of pixels reads a row of texels, one by one: sprites, and polygons drawn like sprites.
 bool has_adjacent_texels(const Job& job, TexelFormat texture);
 
+/// Where the texels of these spans lie (gpu/texel_reads.h).
+void tell_texels(const Mode& mode, const Job& job, std::span<const Span> spans, const TexelSink& sink);
+
 /// Runs the kernel; or, where that is called for, the body that draws one pixel after
 /// the other or the watched one.
 void run(const Surface& surface, const Mode& mode, const Job& job, std::span<const Span> spans,

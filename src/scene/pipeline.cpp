@@ -93,8 +93,8 @@ base::Result<void> draw_frame(FrameBuilder& builder, Frame& frame, ot::MainRam& 
   frame.stats.raster_ms = std::chrono::duration<double, std::milli>(drawing).count();
   if (end.polygons_without_depth != 0 && builder.plan().refuses_without_depth) {
     return base::fail(std::to_string(end.polygons_without_depth) +
-                          " polygons without depth, the first is drawing command " +
-                          std::to_string(end.first_without_depth + 1) +
+                          " polygons without depth, the first is command " + std::to_string(frame.number) +
+                          ":" + std::to_string(end.first_without_depth + 1) +
                           ": --without-depth list-order or bucket draws them",
                       base::Exit::failed);
   }
