@@ -288,6 +288,12 @@ base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t
   return report;
 }
 
+std::vector<std::string> kernels_that_ran(const gpu::Counters& counters) {
+  std::vector<std::string> kernels;
+  add_kernels<gpu::Mode>(counters.kernels, " triangles and rectangles", kernels);
+  return kernels;
+}
+
 std::string to_text(const EffectReport& report) {
   std::string text =
       joined({report.scene, ", frame ", std::to_string(report.frame), ", ", std::to_string(report.width), "x",

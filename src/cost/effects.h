@@ -44,6 +44,9 @@ base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t
                                         const scene::Knobs& knobs, int rounds = 0,
                                         const KeepGoing& keep_going = {});
 
+/// The kernels of the console's GPU that ran, most often first, with how often.
+std::vector<std::string> kernels_that_ran(const gpu::Counters& counters);
+
 std::string to_text(const EffectReport& report);
 /// {"schema":"otter.effects/1",...}
 std::string to_json(const EffectReport& report);

@@ -7,6 +7,9 @@
 #include <array>
 #include <memory>
 #include <new>
+#include <optional>
+#include <string>
+#include <utility>
 
 namespace dump {
 namespace {
@@ -39,6 +42,7 @@ class Counted {
     if (!chunk.empty()) is_wanted = sink_(chunk);
     return true;
   }
+  [[nodiscard]] std::uint64_t limit() const { return limit_; }
   std::uint64_t count = 0;
   bool is_wanted = true;
 
@@ -47,50 +51,120 @@ class Counted {
   std::uint64_t limit_;
 };
 
-Unpacked unpack_zstd(std::span<const std::byte> file, const UnpackedSink& sink, std::uint64_t limit) {
-  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context(ZSTD_createDCtx(), &ZSTD_freeDCtx);
-  if (!context) throw std::bad_alloc();
-  ZSTD_DCtx_setParameter(context.get(), ZSTD_d_windowLogMax, zstd_window_log);
-  Counted out(sink, limit);
-  Bytes chunk(chunk_bytes);
-  ZSTD_inBuffer in{file.data(), file.size(), 0};
-  std::size_t left = 0;  // 0: a frame is complete
-  bool full = false;     // the last call filled the chunk: there may be more without more input
-  while (in.pos < in.size || (full && left != 0)) {
-    ZSTD_outBuffer to{chunk.data(), chunk.size(), 0};
-    left = ZSTD_decompressStream(context.get(), &to, &in);
-    if (ZSTD_isError(left) != 0) {
-      return Unpacked::error(in.pos, std::string("damaged zstd data: ") + ZSTD_getErrorName(left));
-    }
-    if (!out.take(std::span(chunk).first(to.pos))) return too_large(in.pos, limit);
-    if (!out.is_wanted) return {out.count, {}, 0};
-    full = to.pos == to.size;
-  }
-  if (left != 0) return Unpacked::error(file.size(), "the zstd data is cut short");
-  return {out.count, {}, 0};
-}
+/// One way of packing: takes the file piece by piece.
+class Decoder {
+ public:
+  virtual ~Decoder() = default;
+  /// All of `bytes`, unless something is wrong: then error() tells.
+  virtual void take(std::span<const std::byte> bytes, Counted& out) = 0;
+  /// What is wrong with the file ending here.
+  virtual void end(Counted& out) = 0;
+  [[nodiscard]] const std::optional<Unpacked>& error() const { return error_; }
 
-Unpacked unpack_xz(std::span<const std::byte> file, const UnpackedSink& sink, std::uint64_t limit) {
-  lzma_stream stream = LZMA_STREAM_INIT;
-  const std::unique_ptr<lzma_stream, decltype(&lzma_end)> guard(&stream, &lzma_end);
-  if (lzma_stream_decoder(&stream, lzma_memory, LZMA_CONCATENATED) != LZMA_OK) throw std::bad_alloc();
-  stream.next_in = reinterpret_cast<const std::uint8_t*>(file.data());
-  stream.avail_in = file.size();
-  Counted out(sink, limit);
-  Bytes chunk(chunk_bytes);
-  for (;;) {
-    stream.next_out = reinterpret_cast<std::uint8_t*>(chunk.data());
-    stream.avail_out = chunk.size();
-    const auto status = lzma_code(&stream, LZMA_FINISH);
-    if (!out.take(std::span(chunk).first(chunk.size() - stream.avail_out))) {
-      return too_large(stream.total_in, limit);
-    }
-    if (status == LZMA_STREAM_END || !out.is_wanted) return {out.count, {}, 0};
-    if (status == LZMA_BUF_ERROR) return Unpacked::error(file.size(), "the xz data is cut short");
-    if (status == LZMA_MEMLIMIT_ERROR)
-      return Unpacked::error(stream.total_in, "the xz data needs over 256 MiB to unpack");
-    if (status != LZMA_OK) return Unpacked::error(stream.total_in, "damaged xz data");
+ protected:
+  void fail(std::uint64_t at, std::string text) { error_ = Unpacked::error(at, std::move(text)); }
+  /// False: no more is to be done.
+  bool hand_on(std::span<const std::byte> chunk, Counted& out) {
+    if (!out.take(chunk)) error_ = too_large(taken_, out.limit());
+    return !error_ && out.is_wanted;
   }
+  std::uint64_t taken_ = 0;  // bytes of the file
+  std::optional<Unpacked> error_;
+};
+
+class PlainDecoder : public Decoder {
+ public:
+  void take(std::span<const std::byte> bytes, Counted& out) override {
+    taken_ += bytes.size();
+    if (!out.take(bytes)) error_ = too_large(out.limit(), out.limit());
+  }
+  void end(Counted&) override {}
+};
+
+class ZstdDecoder : public Decoder {
+ public:
+  ZstdDecoder() {
+    if (!context_) throw std::bad_alloc();
+    ZSTD_DCtx_setParameter(context_.get(), ZSTD_d_windowLogMax, zstd_window_log);
+  }
+  void take(std::span<const std::byte> bytes, Counted& out) override {
+    const std::uint64_t before = taken_;
+    ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+    // A chunk that was filled may have more behind it without more input.
+    for (bool full = false; in.pos < in.size || (full && left_ != 0);) {
+      ZSTD_outBuffer to{chunk_.data(), chunk_.size(), 0};
+      left_ = ZSTD_decompressStream(context_.get(), &to, &in);
+      taken_ = before + in.pos;
+      if (ZSTD_isError(left_) != 0)
+        return fail(taken_, std::string("damaged zstd data: ") + ZSTD_getErrorName(left_));
+      if (!hand_on(std::span(chunk_).first(to.pos), out)) return;
+      full = to.pos == to.size;
+    }
+  }
+  void end(Counted&) override {
+    if (left_ != 0) fail(taken_, "the zstd data is cut short");
+  }
+
+ private:
+  std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> context_{ZSTD_createDCtx(), &ZSTD_freeDCtx};
+  Bytes chunk_ = Bytes(chunk_bytes);
+  std::size_t left_ = 0;  // 0: a frame is complete
+};
+
+class XzDecoder : public Decoder {
+ public:
+  XzDecoder() {
+    if (lzma_stream_decoder(&stream_, lzma_memory, LZMA_CONCATENATED) != LZMA_OK) throw std::bad_alloc();
+  }
+  ~XzDecoder() override { lzma_end(&stream_); }
+  XzDecoder(const XzDecoder&) = delete;
+  XzDecoder& operator=(const XzDecoder&) = delete;
+
+  void take(std::span<const std::byte> bytes, Counted& out) override {
+    stream_.next_in = reinterpret_cast<const std::uint8_t*>(bytes.data());
+    stream_.avail_in = bytes.size();
+    run(LZMA_RUN, out);
+    taken_ += bytes.size();
+  }
+  void end(Counted& out) override {
+    run(LZMA_FINISH, out);
+    if (!error_ && out.is_wanted && !is_over_) fail(taken_, "the xz data is cut short");
+  }
+
+ private:
+  void run(lzma_action action, Counted& out) {
+    while (!is_over_) {
+      stream_.next_out = reinterpret_cast<std::uint8_t*>(chunk_.data());
+      stream_.avail_out = chunk_.size();
+      const auto status = lzma_code(&stream_, action);
+      if (!hand_on(std::span(chunk_).first(chunk_.size() - stream_.avail_out), out)) return;
+      if (status == LZMA_BUF_ERROR) return;  // no more without more input
+      if (status == LZMA_STREAM_END) {
+        is_over_ = true;
+      } else if (status == LZMA_MEMLIMIT_ERROR) {
+        return fail(stream_.total_in, "the xz data needs over 256 MiB to unpack");
+      } else if (status != LZMA_OK) {
+        return fail(stream_.total_in, "damaged xz data");
+      }
+      if (action == LZMA_RUN && stream_.avail_in == 0 && stream_.avail_out != 0) return;
+    }
+  }
+
+  lzma_stream stream_ = LZMA_STREAM_INIT;
+  Bytes chunk_ = Bytes(chunk_bytes);
+  bool is_over_ = false;
+};
+
+std::unique_ptr<Decoder> decoder_of(std::span<const std::byte> beginning) {
+  switch (compression_of(beginning)) {
+    case Compression::zstd:
+      return std::make_unique<ZstdDecoder>();
+    case Compression::xz:
+      return std::make_unique<XzDecoder>();
+    case Compression::none:
+      break;
+  }
+  return std::make_unique<PlainDecoder>();
 }
 
 }  // namespace
@@ -102,18 +176,54 @@ Compression compression_of(std::span<const std::byte> file) {
   return begins_with(file, xz) ? Compression::xz : Compression::none;
 }
 
-Unpacked unpack_to(std::span<const std::byte> file, const UnpackedSink& sink, std::uint64_t limit) {
-  switch (compression_of(file)) {
-    case Compression::zstd:
-      return unpack_zstd(file, sink, limit);
-    case Compression::xz:
-      return unpack_xz(file, sink, limit);
-    case Compression::none:
-      break;
+struct Unpacker::State {
+  State(UnpackedSink to, std::uint64_t limit) : sink(std::move(to)), out(sink, limit) {}
+  void take(std::span<const std::byte> bytes) {
+    if (!decoder) {
+      // The beginning is kept until it tells what it is.
+      const auto missing = std::min(bytes.size(), magic_bytes - beginning.size());
+      beginning.insert(beginning.end(), bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(missing));
+      bytes = bytes.subspan(missing);
+      if (beginning.size() < magic_bytes) return;
+      begin();
+    }
+    if (!decoder->error() && out.is_wanted && !bytes.empty()) decoder->take(bytes, out);
   }
-  if (file.size() > limit) return too_large(limit, limit);
-  (void)sink(file);
-  return {file.size(), {}, 0};
+  void begin() {
+    decoder = decoder_of(beginning);
+    decoder->take(beginning, out);
+  }
+
+  static constexpr std::size_t magic_bytes = 6;
+  UnpackedSink sink;
+  Counted out;
+  Bytes beginning;
+  std::unique_ptr<Decoder> decoder;
+};
+
+Unpacker::Unpacker(UnpackedSink sink, std::uint64_t limit)
+    : state_(std::make_unique<State>(std::move(sink), limit)) {}
+Unpacker::~Unpacker() = default;
+
+Compression Unpacker::compression() const { return compression_of(state_->beginning); }
+
+bool Unpacker::feed(std::span<const std::byte> bytes) {
+  state_->take(bytes);
+  return state_->out.is_wanted && (!state_->decoder || !state_->decoder->error());
+}
+
+Parsed<std::uint64_t> Unpacker::finish() {
+  State& s = *state_;
+  if (!s.decoder) s.begin();  // less than any magic
+  if (!s.decoder->error() && s.out.is_wanted) s.decoder->end(s.out);
+  if (s.decoder->error()) return *s.decoder->error();
+  return {s.out.count, {}, 0};
+}
+
+Unpacked unpack_to(std::span<const std::byte> file, const UnpackedSink& sink, std::uint64_t limit) {
+  Unpacker unpacker(sink, limit);
+  unpacker.feed(file);
+  return unpacker.finish();
 }
 
 Parsed<Bytes> unpack(std::span<const std::byte> file, std::uint64_t limit) {

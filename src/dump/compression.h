@@ -24,6 +24,27 @@ inline constexpr std::uint64_t max_unpacked_bytes = std::uint64_t{1} << 30;
 /// Takes the next bytes of what a file holds; false: no more are wanted.
 using UnpackedSink = std::function<bool(std::span<const std::byte>)>;
 
+/// Unpacks what comes piece by piece, as the first bytes say: frames or streams one behind the other joined,
+/// and bytes that are not packed as they are.
+class Unpacker {
+ public:
+  explicit Unpacker(UnpackedSink sink, std::uint64_t limit = max_unpacked_bytes);
+  ~Unpacker();
+  Unpacker(const Unpacker&) = delete;
+  Unpacker& operator=(const Unpacker&) = delete;
+
+  /// The next bytes of the file. False: something is wrong, or the sink wants no more.
+  bool feed(std::span<const std::byte> bytes);
+  /// The end of the file. The value and the error are those of unpack_to.
+  Parsed<std::uint64_t> finish();
+  /// Known once six bytes have come.
+  [[nodiscard]] Compression compression() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 /// Hands the contents to `sink` piece by piece, frames or streams one behind the other joined. The value: how
 /// many bytes. Error: damaged, cut short or more than `limit` bytes; the offset is that of the byte of the
 /// compressed file where it was noticed.

@@ -185,20 +185,13 @@ std::vector<std::uint32_t> words_of(std::string_view text) {
   return words;
 }
 
-void read_words(gpu::Gpu& gpu, std::uint32_t count, std::vector<std::uint32_t>* into) {
-  // Without pixels to send every read gives the same latch.
-  for (; count > 0 && ot::gpu_status::ReadyToSend::get(gpu.status()) != 0; --count) {
-    const auto word = gpu.read();
-    if (into != nullptr) into->push_back(word);
+void add(ReplayEnd& sum, const gpu::FrameEnd& frame, std::uint64_t number) {
+  if (sum.polygons_without_depth == 0) {
+    sum.first_without_depth = frame.first_without_depth;
+    sum.first_frame = number;
   }
-  if (into != nullptr && count > 0) into->insert(into->end(), count, gpu.read());
-}
-
-gpu::FrameEnd sum(gpu::FrameEnd a, const gpu::FrameEnd& b) {
-  if (a.polygons_without_depth == 0) a.first_without_depth = b.first_without_depth;
-  a.polygons_without_depth += b.polygons_without_depth;
-  a.queued += b.queued;
-  return a;
+  sum.polygons_without_depth += frame.polygons_without_depth;
+  sum.queued += frame.queued;
 }
 
 }  // namespace
@@ -274,6 +267,7 @@ struct DumpReader::State {
     dump.packets.push_back(packet);
     error = checker.take(packet);
     check_held();
+    if (error) dump.packets.pop_back();
   }
   void check_held() {
     if (!error && static_cast<std::uint64_t>(dump.held_bytes()) > most_held) {
@@ -318,6 +312,8 @@ bool DumpReader::feed(std::span<const std::byte> bytes) {
   }
   return !s.error;
 }
+
+const Dump& DumpReader::so_far() const { return state_->dump; }
 
 Parsed<Dump> DumpReader::finish() {
   State& s = *state_;
@@ -379,27 +375,38 @@ std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format) {
   return out;
 }
 
-gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) {
+void read_words(gpu::Gpu& gpu, std::uint32_t count, std::vector<std::uint32_t>* into) {
+  // Without pixels to send every read gives the same latch.
+  for (; count > 0 && ot::gpu_status::ReadyToSend::get(gpu.status()) != 0; --count) {
+    const auto word = gpu.read();
+    if (into != nullptr) into->push_back(word);
+  }
+  if (into != nullptr && count > 0) into->insert(into->end(), count, gpu.read());
+}
+
+ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) {
   constexpr std::size_t piece = 512;  // words between two questions whether to go on
   DrawingLimit limit(options.until);
-  gpu::FrameEnd end;
+  ReplayEnd end;
   std::uint64_t vsyncs = 0, packets = 0;
-  bool in_frame = false;  // z-buffer: from the first word after a VSync to the next VSync
+  bool in_frame = false;  // from the first word after a VSync to the next VSync
   bool goes_on = true;
   const auto ask = [&](std::uint64_t words) { goes_on = !options.keep_going || options.keep_going(words); };
   const auto begin_frame = [&] {
-    if (gpu.depth_plane() == nullptr || in_frame) return;
+    if (in_frame) return;
     gpu.begin_frame();
     in_frame = true;
   };
   const auto end_frame = [&] {
-    if (in_frame) end = sum(end, gpu.end_frame());
+    if (in_frame) add(end, gpu.end_frame(), vsyncs + 1);
     in_frame = false;
   };
-  const auto end_packet = std::min(options.end_packet, dump.packets.size());
-  for (std::size_t n = options.first_packet; n < end_packet; ++n) {
+  const auto whole = std::min(options.end_packet, dump.packets.size());
+  const bool is_cut = options.end_words != 0 && whole < dump.packets.size();
+  for (std::size_t n = options.first_packet; n < whole + (is_cut ? 1 : 0); ++n) {
     const Packet& packet = dump.packets[n];
-    const auto payload = dump.payload(packet);
+    auto payload = dump.payload(packet);
+    if (n == whole) payload = payload.first(std::min<std::size_t>(payload.size(), options.end_words));
     switch (packet.type) {
       case PacketType::port0: {
         begin_frame();
@@ -413,6 +420,7 @@ gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& optio
         break;
       }
       case PacketType::port1:
+        begin_frame();
         for (const auto word : payload) {
           gpu.gp1(word);
           limit.port1(word);

@@ -83,7 +83,9 @@ class DumpReader {
 
   /// The next bytes, however many. False: something is wrong, and finish() tells what; no more is wanted.
   bool feed(std::span<const std::byte> bytes);
-  /// The end of the file.
+  /// What has come so far: packets that are whole and good. It grows, and moves away with finish().
+  [[nodiscard]] const Dump& so_far() const;
+  /// The end of the file. Error: so_far() stays.
   Parsed<Dump> finish();
 
  private:
@@ -118,6 +120,10 @@ class DumpWriter {
 /// The file that parse_dump reads back to the same packets.
 std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format);
 
+/// Reads GPUREAD so many times, as packets of types 3 and 4 ask; the words are appended to `into`, if there
+/// is one.
+void read_words(gpu::Gpu& gpu, std::uint32_t count, std::vector<std::uint32_t>* into = nullptr);
+
 struct ReplayOptions {
   std::optional<std::uint64_t> frame{};            ///< stop at this VSync packet, from 1
   std::optional<std::uint64_t> until{};            ///< stop after this drawing command, from 1
@@ -127,11 +133,16 @@ struct ReplayOptions {
   std::function<bool(std::uint64_t words)> keep_going{};
   /// Only these packets; frames and commands are counted from the first of them.
   std::size_t first_packet = 0, end_packet = static_cast<std::size_t>(-1);
+  std::uint32_t end_words = 0;  ///< and so many words of packet `end_packet`, if it is one of a port
 };
 
-/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). In
-/// z-buffer mode a frame lasts from VSync to VSync, or to where the replay stops. Returns the sum of what
-/// end_frame told.
-gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options = {});
+/// The sum of what end_frame told, and the frame in which `first_without_depth` counts.
+struct ReplayEnd : gpu::FrameEnd {
+  std::uint64_t first_frame = 0;  ///< from 1
+};
+
+/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). A frame
+/// lasts from VSync to VSync, or to where the replay stops.
+ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options = {});
 
 }  // namespace dump

@@ -1,16 +1,18 @@
 #include "dump/dump_file.h"
 
-#include <cctype>
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/file_kind.h"
 #include "base/read_file.h"
 #include "base/write_file.h"
 #include "dump/compression.h"
-#include "ot/command_stream.h"
-#include "ot/describe.h"
-#include "ot/gp1.h"
 
 namespace dump {
 namespace {
@@ -21,64 +23,102 @@ Compression compression_by_name(const std::filesystem::path& path) {
   return extension == ".xz" ? Compression::xz : Compression::none;
 }
 
-std::string packet_text(const dump::Dump& dump, const dump::Packet& packet, std::uint64_t vsyncs) {
-  const auto payload = dump.payload(packet);
-  switch (packet.type) {
-    case PacketType::vsync:
-      return "vsync " + std::to_string(vsyncs);
-    case PacketType::discard:
-      return "discard " + std::to_string(payload[0]) + " words";
-    case PacketType::readback:
-      return "read back " + std::to_string(payload[0]) + " words";
-    case PacketType::trace_begin:
-      return "trace begins";
-    case PacketType::gpu_version:
-      return "GPU version " + std::to_string(dump.gpu_version);
-    case PacketType::game_id:
-    case PacketType::video_format:
-    case PacketType::comment: {
-      std::string text;
-      for (const auto word : payload) {
-        for (int shift = 0; shift < 32; shift += 8) {
-          const auto c = static_cast<char>(word >> shift & 0xff);
-          if (c != '\0') text += std::isprint(static_cast<unsigned char>(c)) != 0 ? c : '?';
-        }
-      }
-      return "text: " + text;
-    }
-    default:
-      return std::to_string(payload.size()) + " words of unknown type, skipped";
-  }
-}
-
-std::string line_of(std::uint64_t offset, const char* port, const std::string& draw, std::uint32_t code,
-                    const std::string& text) {
-  char head[64];
-  std::snprintf(head, sizeof head, "%9llu %-4s %7s %02X  ", static_cast<unsigned long long>(offset), port,
-                draw.c_str(), static_cast<unsigned>(code));
-  return head + text;
-}
-
 }  // namespace
 
-base::Result<Dump> read_dump(const std::filesystem::path& path) {
-  const auto fail = [&](std::uint64_t offset, const char* where, const std::string& text) {
-    return base::fail(path.string() + ": byte " + std::to_string(offset) + where + ": " + text);
-  };
-  const auto file = base::read_file(path, max_unpacked_bytes);
-  if (!file) return tl::make_unexpected(file.error());
-  if (compression_of(*file) == Compression::none) {
-    auto dump = parse_dump(*file);
-    if (!dump) return fail(dump.offset, "", dump.message);
-    return std::move(*dump);
+struct DumpFile::State {
+  State(std::filesystem::path name, std::uint64_t file_bytes)
+      : path(std::move(name)), size(file_bytes), reader(most_held_bytes(file_bytes)) {}
+
+  /// The next piece; empty: there is none.
+  std::span<const std::byte> next(std::size_t most) {
+    most = std::max<std::size_t>(most, 1);
+    if (!file) {
+      const auto piece = std::span(held).subspan(taken, std::min<std::size_t>(most, held.size() - taken));
+      return piece;
+    }
+    held.resize(most);
+    const auto got = std::fread(held.data(), 1, most, file.get());
+    if (got == 0 && std::ferror(file.get()) != 0)
+      fault = path.string() + ": cannot be read: " + std::strerror(errno);
+    return std::span(held).first(got);
   }
-  DumpReader reader(most_held_bytes(file->size()));
-  const auto unpacked =
-      unpack_to(*file, [&](std::span<const std::byte> bytes) { return reader.feed(bytes); });
-  if (!unpacked) return fail(unpacked.offset, "", unpacked.message);
-  auto dump = reader.finish();
-  if (!dump) return fail(dump.offset, " of the unpacked dump", dump.message);
-  return std::move(*dump);
+
+  bool read_some(std::size_t most) {
+    if (is_over) return false;
+    const auto piece = next(most);
+    taken += piece.size();
+    if (!piece.empty() && unpacker.feed(piece)) return true;
+    is_over = true;
+    const auto unpacked = unpacker.finish();
+    if (!fault.empty()) return false;
+    if (!unpacked) {
+      fault = text_of(unpacked.offset, "", unpacked.message);
+      return false;
+    }
+    auto read = reader.finish();
+    if (!read) {
+      const bool is_packed = unpacker.compression() != Compression::none;
+      fault = text_of(read.offset, is_packed ? " of the unpacked dump" : "", read.message);
+    } else {
+      dump = std::move(*read);
+    }
+    return false;
+  }
+  [[nodiscard]] std::string text_of(std::uint64_t offset, const char* where, const std::string& text) const {
+    return path.string() + ": byte " + std::to_string(offset) + where + ": " + text;
+  }
+
+  std::filesystem::path path;
+  std::uint64_t size, taken = 0;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file{nullptr, &std::fclose};
+  std::vector<std::byte> held;  // a piece of the file, or all of a pipe
+  DumpReader reader;
+  Unpacker unpacker{[this](std::span<const std::byte> bytes) { return reader.feed(bytes); }};
+  bool is_over = false;
+  std::string fault;
+  std::optional<Dump> dump;  // of a file that is over and good
+};
+
+base::Result<DumpFile> DumpFile::open(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored)) {
+    auto bytes = base::read_file(path, max_unpacked_bytes);
+    if (!bytes) return tl::make_unexpected(bytes.error());
+    auto state = std::make_unique<State>(path, bytes->size());
+    state->held = std::move(*bytes);
+    return DumpFile(std::move(state));
+  }
+  const auto size = std::filesystem::file_size(path, ignored);
+  if (size > max_unpacked_bytes)
+    return base::fail(path.string() + ": more than " + std::to_string(max_unpacked_bytes) +
+                      " bytes, which is the limit");
+  auto state = std::make_unique<State>(path, size);
+  state->file.reset(std::fopen(path.c_str(), "rb"));
+  if (!state->file) return base::fail(path.string() + ": cannot be read: " + std::strerror(errno));
+  return DumpFile(std::move(state));
+}
+
+DumpFile::DumpFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
+DumpFile::~DumpFile() = default;
+DumpFile::DumpFile(DumpFile&&) noexcept = default;
+DumpFile& DumpFile::operator=(DumpFile&&) noexcept = default;
+
+bool DumpFile::read_some(std::size_t most) { return state_->read_some(most); }
+const Dump& DumpFile::so_far() const { return state_->dump ? *state_->dump : state_->reader.so_far(); }
+bool DumpFile::is_over() const { return state_->is_over; }
+const std::string& DumpFile::fault() const { return state_->fault; }
+double DumpFile::progress() const {
+  if (state_->is_over || state_->size == 0) return 1;
+  return static_cast<double>(state_->taken) / static_cast<double>(state_->size);
+}
+
+base::Result<Dump> read_dump(const std::filesystem::path& path) {
+  auto file = DumpFile::open(path);
+  if (!file) return tl::make_unexpected(file.error());
+  while (file->read_some(std::size_t{1} << 20)) {
+  }
+  if (!file->fault().empty()) return base::fail(file->fault());
+  return std::move(*file->state_->dump);
 }
 
 base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat format,
@@ -99,39 +139,6 @@ base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat form
     }
     return {};
   });
-}
-
-void list_dump(const Dump& dump, const ReplayOptions& options,
-               const std::function<void(const std::string&)>& line) {
-  ot::CommandStream stream;
-  std::uint64_t draws = 0, vsyncs = 0, begin = 0;
-  for (const auto& packet : dump.packets) {
-    const auto payload = dump.payload(packet);
-    if (packet.type == PacketType::port0) {
-      for (std::size_t n = 0; n < payload.size(); ++n) {
-        n += stream.skip_pixels(payload.size() - n);
-        if (n == payload.size()) break;
-        if (!stream.is_open()) begin = packet.offset + 4 + 4 * n;
-        if (!stream.take(payload[n])) continue;
-        const bool draws_now = ot::gp0::is_drawing(stream.command());
-        if (draws_now) ++draws;
-        line(line_of(begin, "GP0", draws_now ? std::string("#").append(std::to_string(draws)) : "-",
-                     ot::gp0::Opcode::get(stream.words()[0]), ot::describe(stream.words(), stream.length())));
-        if (draws_now && options.until && draws == *options.until) return;
-      }
-    } else if (packet.type == PacketType::port1) {
-      for (std::size_t n = 0; n < payload.size(); ++n) {
-        line(line_of(packet.offset + 4 + 4 * n, "GP1", "-", ot::gp0::Opcode::get(payload[n]),
-                     ot::describe_control(payload[n])));
-        if (ot::gp1::aborts_command(payload[n])) stream.abort();
-      }
-    } else {
-      if (packet.type == PacketType::vsync) ++vsyncs;
-      line(line_of(packet.offset, "-", "-", static_cast<std::uint32_t>(packet.type),
-                   packet_text(dump, packet, vsyncs)));
-      if (options.frame && vsyncs == *options.frame) return;
-    }
-  }
 }
 
 }  // namespace dump

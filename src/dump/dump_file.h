@@ -4,13 +4,40 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
+#include <memory>
 #include <string>
 
 #include "base/result.h"
 #include "dump/dump.h"
 
 namespace dump {
+
+/// A file that is read, unpacked and checked piece by piece, so that its first frames can be looked at while
+/// the others come. Packed or plain, file or pipe.
+class DumpFile {
+ public:
+  /// Error (exit 2): "PATH: cannot be read: REASON", more bytes than max_unpacked_bytes.
+  static base::Result<DumpFile> open(const std::filesystem::path& path);
+  ~DumpFile();
+  DumpFile(DumpFile&&) noexcept;
+  DumpFile& operator=(DumpFile&&) noexcept;
+
+  /// The next bytes of the file, `most` at most. False: there are no more, or something is wrong.
+  bool read_some(std::size_t most);
+  /// The packets that are whole and good so far.
+  [[nodiscard]] const Dump& so_far() const;
+  [[nodiscard]] bool is_over() const;
+  /// What is wrong, as read_dump tells it; empty: nothing. Known when is_over().
+  [[nodiscard]] const std::string& fault() const;
+  /// How much of the file was read, 0..1.
+  [[nodiscard]] double progress() const;
+
+ private:
+  struct State;
+  explicit DumpFile(std::unique_ptr<State> state);
+  friend base::Result<Dump> read_dump(const std::filesystem::path& path);
+  std::unique_ptr<State> state_;
+};
 
 /// Reads, unpacks and checks. Error (exit 2): "PATH: byte N: what was expected", where N counts in the file,
 /// or, where it is packed and could be unpacked, in what it holds.
@@ -20,10 +47,5 @@ base::Result<Dump> read_dump(const std::filesystem::path& path);
 /// that read_dump would refuse for its size is not written: exit 2.
 base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat format,
                               const std::function<base::Result<void>(DumpWriter&)>& make);
-
-/// One line for each command and packet up to where a replay with `options` would stop:
-///     byte offset, port, number of the drawing command or '-', opcode, the command in words
-void list_dump(const Dump& dump, const ReplayOptions& options,
-               const std::function<void(const std::string&)>& line);
 
 }  // namespace dump

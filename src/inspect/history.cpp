@@ -54,7 +54,7 @@ class Historian {
 
  private:
   [[nodiscard]] std::string name(std::uint32_t draw) const {
-    return id(report_.frame, {draw, draw == nobody ? gpu::no_bucket : trace_.draws[draw].bucket});
+    return id(report_.frame, draw_id(trace_, draw));
   }
   [[nodiscard]] double depth(std::uint32_t draw) const {
     const auto found =

@@ -17,11 +17,15 @@ Json by_cause(const std::array<std::uint64_t, cause_count>& counts) {
 Json number_or_null(std::uint32_t value) { return value == nobody ? Json(nullptr) : Json(value); }
 static_assert(nobody == gpu::no_bucket);
 
+Json id_or_null(std::uint32_t frame, const DrawId& draw) {
+  return draw.draw == nobody ? Json(nullptr) : Json(id(frame, draw));
+}
+
 Json pairs(const Report& report) {
   Json list = Json::array();
   for (const WrongPair& pair : report.pairs) {
-    list.push_back({{"winner", number_or_null(pair.winner.draw)},
-                    {"owner", number_or_null(pair.owner.draw)},
+    list.push_back({{"winner", id_or_null(report.frame, pair.winner)},
+                    {"owner", id_or_null(report.frame, pair.owner)},
                     {"cause", pair.has_cause ? Json(name(pair.cause)) : Json(nullptr)},
                     {"pixels", pair.pixels},
                     {"winner_bucket", number_or_null(pair.winner.bucket)},

@@ -9,8 +9,8 @@
 
 namespace inspect {
 
-/// One object, ending in a newline. Pixel positions are relative to the picture; draws are numbers from 0
-/// with the bucket beside them, null where there is none.
+/// One object, ending in a newline. Pixel positions are relative to the picture; draws are
+/// numbers F:K:B (gpu/number.h), null where there is none.
 std::string to_json(const Report& report);
 
 /// Several frames, none of which is kept in memory: what is known of each waits in a temporary file. The sums

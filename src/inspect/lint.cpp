@@ -7,6 +7,7 @@
 #include <set>
 
 #include "gpu/columns.h"
+#include "gpu/number.h"
 #include "ot/gp0.h"
 #include "ot/walker.h"
 
@@ -205,7 +206,7 @@ std::vector<LintItem> lint_buckets(const BucketFaults& faults, std::uint32_t len
   return items;
 }
 
-std::vector<LintItem> lint_draws(const gpu::Trace& trace) {
+std::vector<LintItem> lint_draws(const gpu::Trace& trace, std::uint64_t frame) {
   std::array<std::uint32_t, unseen_texts.size()> counts{}, first{};
   for (std::uint32_t draw = 0; draw < trace.draws.size(); ++draw) {
     if (trace.written[draw] != 0 || trace.draws[draw].kind != gpu::Kind::polygon) continue;
@@ -215,7 +216,8 @@ std::vector<LintItem> lint_draws(const gpu::Trace& trace) {
   std::vector<LintItem> items;
   for (std::size_t reason = 0; reason < counts.size(); ++reason) {
     if (counts[reason] == 0) continue;
-    items.push_back({unseen_texts[reason].kind, "draw " + std::to_string(first[reason]),
+    items.push_back({unseen_texts[reason].kind,
+                     gpu::to_text(gpu::number_of(frame, trace.draws[first[reason]])),
                      std::to_string(counts[reason]) + (counts[reason] == 1 ? " polygon" : " polygons") +
                          " drew nothing: " + unseen_texts[reason].text});
   }

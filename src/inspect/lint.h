@@ -13,7 +13,7 @@ namespace inspect {
 
 struct LintItem {
   std::string kind;  ///< "linked-twice", "bucket-range", ...: one word, stable
-  std::string at;    ///< "123000h", "draw 12", or empty
+  std::string at;    ///< "123000h", "3:17" (gpu/number.h), or empty
   std::string text;  ///< one clause for people
   bool operator==(const LintItem&) const = default;
 };
@@ -49,6 +49,6 @@ std::vector<LintItem> lint_buckets(const BucketFaults& faults, std::uint32_t len
 
 /// Draws that wrote no pixel, one item per reason with their number and the first of them: size-rule,
 /// no-area, outside-area, not-seen (transparent texels, masked or behind).
-std::vector<LintItem> lint_draws(const gpu::Trace& trace);
+std::vector<LintItem> lint_draws(const gpu::Trace& trace, std::uint64_t frame);
 
 }  // namespace inspect

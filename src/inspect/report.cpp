@@ -79,9 +79,7 @@ double depth_at(const Fragments& fragments, const Surfaces& surfaces, std::uint3
 
 std::vector<WrongPair> find_pairs(const Report& report, const gpu::Trace& trace, const Fragments& fragments,
                                   const Surfaces& surfaces) {
-  const auto named = [&](std::uint32_t draw) {
-    return DrawId{draw, draw == nobody ? gpu::no_bucket : trace.draws[draw].bucket};
-  };
+  const auto named = [&](std::uint32_t draw) { return draw_id(trace, draw); };
   std::map<std::tuple<std::uint32_t, std::uint32_t, std::optional<Cause>>, WrongPair> found;
   for (const WrongPixel& wrong : report.wrong) {
     const auto cause = wrong.causes.first();
@@ -133,7 +131,7 @@ Report inspect(const gpu::Trace& trace, const Options& options) {
   }
   report.pixels_drawn = pixels_drawn(trace);
   report.buckets = census(trace);
-  report.lint = lint_draws(trace);
+  report.lint = lint_draws(trace, options.frame);
 
   const Fragments fragments(trace);
   Surfaces surfaces(trace);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "gpu/number.h"
 #include "gpu/trace.h"
 #include "inspect/causes.h"
 #include "inspect/lint.h"
@@ -34,9 +35,10 @@ struct Options {
       picture{};  ///< whose top left corner is 0,0 in the report; empty: the drawing area of most polygons
 };
 
-/// One draw as the report names it: frame, draw number and bucket are stable from run to run.
+/// One draw as the report names it.
 struct DrawId {
-  std::uint32_t draw = nobody;
+  std::uint32_t draw = nobody;  ///< index into Trace::draws
+  std::uint64_t command = 0;    ///< as gpu::Number has it, from 1; 0: going on from the frame before
   std::uint32_t bucket = gpu::no_bucket;
 };
 
@@ -98,7 +100,10 @@ struct Sums {
 /// A trace without depth gives no wrong pixel: polygons_judged says that nothing was looked at.
 Report inspect(const gpu::Trace& trace, const Options& options);
 
-/// "f0:d12:b34": frame, draw number, bucket; "b?" if there is no bucket, "background" for nobody.
+/// Draw `draw` of a trace, or nobody.
+DrawId draw_id(const gpu::Trace& trace, std::uint32_t draw);
+
+/// The draw's number, "3:17:512" or "3:17" (gpu/number.h); "background" for nobody.
 std::string id(std::uint32_t frame, const DrawId& draw);
 
 /// The table `otter inspect` prints.

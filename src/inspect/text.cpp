@@ -79,13 +79,15 @@ void buckets(std::string& out, const Report& report) {
 
 }  // namespace
 
+DrawId draw_id(const gpu::Trace& trace, std::uint32_t draw) {
+  if (draw == nobody) return {};
+  const auto number = gpu::number_of(0, trace.draws[draw]);
+  return {draw, number.command, number.bucket};
+}
+
 std::string id(std::uint32_t frame, const DrawId& draw) {
   if (draw.draw == nobody) return "background";
-  std::string text;
-  print(text, "f%u:d%u:b", frame, draw.draw);
-  if (draw.bucket == gpu::no_bucket) return text.append(1, '?');
-  print(text, "%u", draw.bucket);
-  return text;
+  return gpu::to_text({frame, draw.command, draw.bucket});
 }
 
 std::string to_text(const Report& report) {

@@ -213,7 +213,7 @@ TEST_SUITE("otter") {
     const auto warned = folder.otter("replay without.psxgpu.zst --visibility zbuffer --vram w.bin");
     CHECK(warned.status == 0);
     CHECK(is_one_line(warned.err));
-    CHECK(mentions(warned.err, "polygons without depth, the first is drawing command "));
+    CHECK(mentions(warned.err, "polygons without depth, the first is command 1:"));
     CHECK(mentions(warned.err, "drawn in list order"));
     CHECK(contents(folder.path / "w.bin") == contents(folder.path / "b.bin"));
     const auto buckets =

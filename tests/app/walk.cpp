@@ -266,8 +266,7 @@ TEST_SUITE("otter") {
     const auto in_order = walk("--table 1000,2");
     CHECK(in_order.status == 0);
     CHECK(is_one_line(in_order.err));
-    CHECK(mentions(in_order.err,
-                   "2 polygons without depth, the first is drawing command 1: drawn in list order"));
+    CHECK(mentions(in_order.err, "2 polygons without depth, the first is command 1:1: drawn in list order"));
     CHECK(contents(folder.path / "v.bin").substr(0, 2) == blue);
 
     const auto by_bucket = walk("--table 1000,2 --without-depth bucket");

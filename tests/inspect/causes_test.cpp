@@ -132,7 +132,7 @@ TEST_SUITE("inspect") {
     REQUIRE(report.pairs.size() == 1);
     CHECK(report.pairs[0].winner_depth == doctest::Approx(450));
     CHECK(report.pairs[0].owner_depth == doctest::Approx(400));
-    CHECK(inspect::id(0, report.pairs[0].winner) == "f0:d1:b500");
+    CHECK(inspect::id(0, report.pairs[0].winner) == "0:2:500");
   }
 
   TEST_CASE("KeyInversion is absent: keys by the farthest vertex") {

@@ -127,7 +127,7 @@ TEST_SUITE("inspect") {
     const auto report = stage.report();
     REQUIRE(report.lint.size() == 3);
     CHECK(report.lint[0].kind == "size-rule");
-    CHECK(report.lint[0].at == "draw 1");
+    CHECK(report.lint[0].at == "0:2");
     CHECK(report.lint[1].kind == "no-area");
     CHECK(report.lint[2].kind == "outside-area");
   }
@@ -184,10 +184,10 @@ TEST_SUITE("inspect") {
     const auto report = stage.report();
     const auto lines = inspect::pixel_history(report, stage.trace(), 2, 3);
     REQUIRE(lines.size() == 4);
-    CHECK(lines[1] == "  1. f0:d0:b3 quad wrote 001F over 0000, depth 100.0000");
-    CHECK(lines[2] == "  2. f0:d1:b3 quad wrote 03E0 over 001F, depth 200.0000");
+    CHECK(lines[1] == "  1. 0:1:3 quad wrote 001F over 0000, depth 100.0000");
+    CHECK(lines[2] == "  2. 0:2:3 quad wrote 03E0 over 001F, depth 200.0000");
     CHECK(lines[3] ==
-          "  wrong: shows f0:d1:b3 at depth 200.0000, should show f0:d0:b3 at depth 100.0000: BucketTie");
+          "  wrong: shows 0:2:3 at depth 200.0000, should show 0:1:3 at depth 100.0000: BucketTie");
     CHECK(inspect::pixel_history(report, stage.trace(), 8, 0).empty());
   }
 

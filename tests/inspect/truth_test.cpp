@@ -142,7 +142,7 @@ TEST_SUITE("inspect") {
     CHECK(report.fragments == 16 + 8);
     REQUIRE(report.lint.size() == 1);
     CHECK(report.lint[0] ==
-          inspect::LintItem{"not-seen", "draw 1",
+          inspect::LintItem{"not-seen", "0:2",
                             "1 polygon drew nothing: every pixel transparent, masked or behind"});
   }
 

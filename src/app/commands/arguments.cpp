@@ -42,6 +42,18 @@ void Arguments::text(const char* names, const char* type, std::string& value, co
   sub_.add_option(names, value, help)->type_name(type)->required(presence == Presence::required)->take_last();
 }
 
+void Arguments::text_or(const char* names, const char* type, std::string& value, const char* otherwise,
+                        const char* help) {
+  sub_.add_option_function<std::vector<std::string>>(
+          names,
+          [&value, otherwise](const std::vector<std::string>& given) {
+            value = given.empty() || given.back().empty() ? otherwise : given.back();
+          },
+          help)
+      ->type_name(type)
+      ->expected(0, 1);
+}
+
 void Arguments::words(const char* names, const char* type, std::vector<std::string>& values,
                       const char* help) {
   sub_.add_option(names, values, help)->type_name(type)->delimiter(',');

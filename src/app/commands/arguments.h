@@ -38,6 +38,9 @@ class Arguments {
 
   void text(const char* names, const char* type, std::string& value, const char* help,
             Presence presence = Presence::optional);
+  /// A text that may be left out behind its option: then it is `otherwise`.
+  void text_or(const char* names, const char* type, std::string& value, const char* otherwise,
+               const char* help);
   /// Words with commas between them.
   void words(const char* names, const char* type, std::vector<std::string>& values, const char* help);
   void choice(const char* names, std::string& value, std::initializer_list<const char*> values,

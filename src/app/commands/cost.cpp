@@ -16,8 +16,9 @@
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/interrupt.h"
-#include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
+#include "app/commands/recorded.h"
+#include "app/source.h"
 #include "base/message.h"
 #include "base/write_file.h"
 #include "cost/report.h"
@@ -31,7 +32,8 @@ struct CostOptions {
   std::vector<std::string> axes;
   bool quick = false;
   int rounds = 9;
-  std::uint32_t frame = 30;
+  std::optional<std::uint64_t> frame;
+  RamOptions ram;
   std::string size = "320x240", json, csv, html;
 };
 
@@ -104,6 +106,18 @@ base::Result<void> check_outputs(const CostOptions& o) {
   return {};
 }
 
+base::Result<cost::SceneResult> sweep_source(Source& source, const CostOptions& o,
+                                             const cost::SweepOptions& sweep) {
+  if (!source.is_recording()) {
+    cost::Subject subject(std::move(*source.scene), static_cast<std::uint32_t>(o.frame.value_or(30)));
+    return cost::sweep(subject, sweep);
+  }
+  const std::uint64_t frame = o.frame.value_or(1);
+  const auto timeline = open_at_frame(source, {}, frame);
+  if (!timeline) return tl::make_unexpected(timeline.error());
+  return cost::sweep(recorded_frame(**timeline, source.name, frame), sweep);
+}
+
 base::Result<int> run_cost(CostOptions& o) {
   if (o.scenes.empty()) o.scenes = {"crates", "corridor"};
   cost::SweepOptions sweep;
@@ -114,11 +128,11 @@ base::Result<int> run_cost(CostOptions& o) {
   sweep.rounds = o.rounds;
   if (auto set = scene::set_knob(sweep.given, "size", o.size); !set) return tl::make_unexpected(set.error());
   if (auto checked = check_outputs(o); !checked) return tl::make_unexpected(checked.error());
-  std::vector<scene::Scene> scenes;
+  std::vector<Source> sources;
   for (const auto& name : o.scenes) {
-    auto opened = open_scene(name);
+    auto opened = open_source(name, o.ram);
     if (!opened) return tl::make_unexpected(opened.error());
-    scenes.push_back(std::move(*opened));
+    sources.push_back(std::move(*opened));
   }
   const Interrupt interrupt;
   sweep.stop = [&] { return interrupt.was_asked(); };
@@ -127,15 +141,14 @@ base::Result<int> run_cost(CostOptions& o) {
                       .target = gte::batch_target(),
                       .scenes = {}};
   std::optional<base::Error> failed;  // what was measured before is reported all the same
-  for (auto& scene : scenes) {
+  for (auto& source : sources) {
     if (interrupt.was_asked()) break;
     std::unique_ptr<Progress> progress;
-    sweep.progress = [&, name = scene.name](std::size_t done, std::size_t all, double seconds_left) {
+    sweep.progress = [&, name = source.name](std::size_t done, std::size_t all, double seconds_left) {
       if (!progress) progress = std::make_unique<Progress>("cost " + name, all);
       progress->show(done, seconds_left);
     };
-    cost::Subject subject(std::move(scene), o.frame);
-    auto result = cost::sweep(subject, sweep);
+    auto result = sweep_source(source, o, sweep);
     if (!result) {
       failed = result.error();
       break;
@@ -159,12 +172,14 @@ base::Result<int> run_cost(CostOptions& o) {
 
 Action add_cost(Arguments arguments) {
   const auto options = std::make_shared<CostOptions>();
-  arguments.positionals("scene", "SCENE|FILE", options->scenes, "scenes or files [crates corridor]");
+  arguments.positionals("scene", "SCENE|FILE", options->scenes,
+                        "scenes, scene files, GPU dumps, or a RAM image with --head [crates corridor]");
   arguments.words("--axes", "A,B", options->axes, "measure these axes alone, and no combinations");
   arguments.flag("--quick", options->quick, "fewer settings: under a minute");
   arguments.number("--rounds", "N", options->rounds, 1, 1000, "how often every setting is timed [9]");
-  arguments.number("--frame", "N", options->frame, std::uint32_t{0}, std::uint32_t{1'000'000'000},
-                   "frame N shows the scene after N/60 s [30]");
+  arguments.number("--frame", "N", options->frame, std::uint64_t{0}, std::uint64_t{1'000'000'000},
+                   "of a scene the state after N/60 s [30], of a recording from 1 [1]");
+  add_ram_options(arguments, options->ram);
   arguments.text("--size", "WxH", options->size, "display mode [320x240]");
   arguments.text("--json", "FILE", options->json, "write all numbers as JSON; - is standard output");
   arguments.text("--csv", "FILE", options->csv, "write one line a setting");

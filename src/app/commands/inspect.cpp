@@ -1,11 +1,12 @@
 // otter inspect: which pixels are wrong, why, and between whom.
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
-#include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,21 +16,18 @@
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
 #include "app/commands/interrupt.h"
-#include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
 #include "app/commands/without_depth.h"
+#include "app/source.h"
 #include "app/viewer.h"
-#include "base/file_kind.h"
 #include "base/write_file.h"
-#include "demos/demos.h"
+#include "debug/timeline.h"
 #include "display/png.h"
-#include "dump/dump.h"
-#include "dump/dump_file.h"
 #include "inspect/history.h"
 #include "inspect/json.h"
+#include "inspect/lint.h"
 #include "inspect/maps.h"
 #include "inspect/report.h"
-#include "scene/plan.h"
 
 namespace app {
 namespace {
@@ -37,6 +35,7 @@ namespace {
 struct InspectOptions {
   std::string source, frame, frames, pixel, json, heatmap, overdraw, ids, truth, depth_map;
   std::int64_t max = -1;
+  RamOptions ram;
   scene::Knobs knobs;
 
   [[nodiscard]] bool wants_picture() const {
@@ -57,9 +56,9 @@ struct Watched {
 };
 
 // Where frames come from: a scene, or a dump.
-class Source {
+class FrameSource {
  public:
-  virtual ~Source() = default;
+  virtual ~FrameSource() = default;
   virtual base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) = 0;
   [[nodiscard]] virtual FrameRange frames() const = 0;
 };
@@ -69,7 +68,7 @@ inspect::Order order_of(const scene::Knobs& knobs) {
   return knobs.visibility == scene::Visibility::bsp ? inspect::Order::exact : inspect::Order::list;
 }
 
-class SceneSource : public Source {
+class SceneSource : public FrameSource {
  public:
   SceneSource(scene::Scene scene, const scene::Knobs& knobs)
       : name_(scene.name), knobs_(knobs), machine_(std::move(scene), knobs) {}
@@ -122,69 +121,49 @@ class SceneSource : public Source {
   Viewer machine_;
 };
 
-class DumpSource : public Source {
+class RecordingSource : public FrameSource {
  public:
-  // What a dump and the history of one of its frames may take together.
+  // What a recording and the history of one of its frames may take together.
   static constexpr std::int64_t most_of_both = std::int64_t{400} << 20,
                                 least_of_trace = std::int64_t{128} << 20;
 
-  DumpSource(std::string name, dump::Dump dump, const scene::Knobs& knobs)
-      : name_(std::move(name)), dump_(std::move(dump)), knobs_(knobs) {
-    gpu_.set_depth(scene::depth_options(knobs));
-  }
+  RecordingSource(std::string name, std::unique_ptr<debug::Timeline> timeline, const scene::Knobs& knobs)
+      : name_(std::move(name)), timeline_(std::move(timeline)), knobs_(knobs) {}
 
-  // Frame N of a dump lies between its VSync packets N-1 and N. Frames must be asked for in ascending order.
   base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
-    play_until(number - 1);
-    trace.allowance = std::max(most_of_both - dump_.held_bytes(), least_of_trace);
-    trace.clear();
-    gpu_.set_trace(&trace);
-    const auto end = play_until(number, &trace);
-    gpu_.set_trace(nullptr);
+    trace.allowance = std::max(most_of_both - timeline_->dump().held_bytes(), least_of_trace);
+    const auto watched_frame = timeline_->watch(number, trace);
     if (trace.is_full)
       return base::fail(name_ + ": frame " + std::to_string(number) + ": " + trace.limit_text());
-    if (auto judged = judge_without_depth(name_, knobs_, end); !judged)
+    if (auto judged = judge_without_depth(name_, knobs_, {watched_frame.end, number}); !judged)
       return tl::make_unexpected(judged.error());
-    const auto vram = gpu_.vram().pixels();
+    const auto vram = timeline_->gpu().vram().pixels();
     Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
                     {vram.begin(), vram.end()},
                     !Interrupt::was_asked()};
-    watched.report.lint.push_back(
-        {"dropped", "", "not available: what a program leaves out before drawing is not in its dump"});
-    watched.report.lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
-    watched.report.lint.push_back(
-        {"links", "", "not available: a dump holds no list, only the words it sent"});
+    add_lint(watched.report.lint);
     return watched;
   }
-  // Without a VSync packet the whole dump is one frame.
   [[nodiscard]] FrameRange frames() const override {
-    return {1, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(dump_.vsyncs, 1, highest_number))};
+    return {1, static_cast<std::uint32_t>(std::min<std::uint64_t>(timeline_->frames(), highest_number))};
   }
 
  private:
-  // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are
-  // fewer.
-  gpu::FrameEnd play_until(std::uint64_t vsyncs, const gpu::Trace* watching = nullptr) {
-    const std::size_t first = next_;
-    const bool is_one_frame = dump_.vsyncs == 0 && vsyncs > 0;
-    while (next_ < dump_.packets.size() && (seen_ < vsyncs || is_one_frame)) {
-      if (dump_.packets[next_++].type == dump::PacketType::vsync) ++seen_;
+  void add_lint(std::vector<inspect::LintItem>& lint) const {
+    lint.push_back(
+        {"dropped", "", "not available: what a program leaves out before drawing is not in a recording"});
+    const auto& image = timeline_->recording().image();
+    if (!image) {
+      lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
+      lint.push_back({"links", "", "not available: a dump holds no list, only the words it sent"});
+      return;
     }
-    return dump::replay(dump_, gpu_,
-                        {.keep_going =
-                             [watching](std::uint64_t) {
-                               return (watching == nullptr || !watching->is_full) && !Interrupt::was_asked();
-                             },
-                         .first_packet = first,
-                         .end_packet = next_});
+    std::ranges::move(inspect::lint_list(image->ram, image->head, image->table), std::back_inserter(lint));
   }
 
   std::string name_;
-  dump::Dump dump_;
+  std::unique_ptr<debug::Timeline> timeline_;
   scene::Knobs knobs_;
-  gpu::Gpu gpu_;
-  std::size_t next_ = 0;
-  std::uint64_t seen_ = 0;
 };
 
 std::optional<std::uint32_t> number(std::string_view text) {
@@ -219,7 +198,7 @@ base::Result<FrameRange> frames_of(const InspectOptions& options, const FrameRan
     const auto missing = asked->first < available.first ? asked->first : asked->last;
     return base::fail(options.source + ": --frame " + std::to_string(missing) + ": expected " +
                       std::to_string(available.first) + ".." + std::to_string(available.last) +
-                      ", the frames of this dump");
+                      ", the frames of it");
   }
   return asked;
 }
@@ -240,27 +219,16 @@ base::Result<std::optional<Position>> pixel_of(const InspectOptions& options) {
   return Position{static_cast<int>(column), static_cast<int>(row)};
 }
 
-bool is_dump(const std::string& source) {
-  if (demos::find(source) != nullptr) return false;
-  const auto kind = base::kind_of_file(source);
-  return kind && *kind == base::FileKind::dump;
-}
-
-base::Result<std::unique_ptr<Source>> open(const InspectOptions& options) {
-  if (is_dump(options.source)) {
-    const auto visibility = options.knobs.visibility;
-    if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
-      return base::fail("--visibility: a dump is drawn in its own order; expected ot or zbuffer");
-    }
-    if (auto checked = check_without_depth(options.source, options.knobs, false); !checked)
-      return tl::make_unexpected(checked.error());
-    auto dump = dump::read_dump(options.source);
-    if (!dump) return tl::make_unexpected(dump.error());
-    return std::make_unique<DumpSource>(options.source, std::move(*dump), options.knobs);
-  }
-  auto scene = open_scene(options.source);
-  if (!scene) return tl::make_unexpected(scene.error());
-  return std::make_unique<SceneSource>(std::move(*scene), options.knobs);
+base::Result<std::unique_ptr<FrameSource>> open(const InspectOptions& options) {
+  auto source = open_source(options.source, options.ram);
+  if (!source) return tl::make_unexpected(source.error());
+  if (!source->is_recording()) return std::make_unique<SceneSource>(std::move(*source->scene), options.knobs);
+  warn_of_idle_knobs(options.source, options.knobs);
+  auto timeline = open_timeline(*source, options.knobs);
+  if (!timeline) return tl::make_unexpected(timeline.error());
+  if (auto read = (*timeline)->read_all(); !read) return tl::make_unexpected(read.error());
+  warn_of_fault(**timeline);
+  return std::make_unique<RecordingSource>(options.source, std::move(*timeline), options.knobs);
 }
 
 base::Result<void> write_pictures(const InspectOptions& options, const Watched& watched,
@@ -363,10 +331,11 @@ Action add_inspect(Arguments arguments) {
   const auto file = [&](const char* name, std::string& path, const char* help) {
     arguments.text(name, "FILE", path, help);
   };
-  arguments.positional("source", "SCENE|DUMP", options->source,
-                       "a scene of `otter list`, an .obj or .x3d file, or a GPU dump", Presence::required);
-  arguments.text("--frame", "N", options->frame,
-                 "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]");
+  arguments.positional(
+      "source", "SCENE|FILE", options->source,
+      "a scene of `otter list`, an .obj or .x3d file, a GPU dump, or a RAM image with --head",
+      Presence::required);
+  arguments.text("--frame", "N", options->frame, "of a scene from 0 [0], of a recording from 1 [1]");
   arguments.text("--frames", "A..B", options->frames, "several frames, both ends included");
   file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
   file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
@@ -377,6 +346,7 @@ Action add_inspect(Arguments arguments) {
   arguments.text("--pixel", "X,Y", options->pixel, "tell the history of a pixel of the picture");
   arguments.number("--max", "N", options->max, std::int64_t{0}, std::int64_t{1} << 40,
                    "exit with 1 if more pixels are wrong");
+  add_ram_options(arguments, options->ram);
   options->knobs.without_depth = foreign_without_depth;  // scenes have depths
   arguments.knobs(options->knobs);
   return [options] { return run(*options); };

@@ -14,6 +14,10 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
+#include "app/commands/recorded.h"
+#include "app/commands/shown.h"
+#include "app/commands/without_depth.h"
+#include "app/source.h"
 #include "app/viewer.h"
 #include "base/message.h"
 #include "demos/demos.h"
@@ -25,8 +29,11 @@ namespace {
 struct RenderOptions {
   std::string scene, output, directory = "out";
   bool all = false;
-  std::int64_t frame = 0;
+  std::optional<std::uint64_t> frame;
+  RamOptions ram;
   scene::Knobs knobs;
+
+  [[nodiscard]] std::int64_t scene_frame() const { return static_cast<std::int64_t>(frame.value_or(0)); }
 };
 
 // Draws one frame, writes it, and says in one line what was drawn.
@@ -45,18 +52,37 @@ base::Result<void> render_one(scene::Scene scene, const RenderOptions& options,
       return !Interrupt::was_asked();
     });
   }
-  const auto stats = machine.draw(options.frame, options.knobs);
+  const auto stats = machine.draw(options.scene_frame(), options.knobs);
   if (!stats) return tl::make_unexpected(stats.error());
   const auto picture = machine.picture();
   if (auto written = display::write_png(output, picture); !written) return written;
   std::printf("%s: %s frame %lld, %dx%d, %u primitives; GTE %.2f ms, OT %.2f ms, raster %.2f ms\n",
               base::printable(output.string()).c_str(), base::printable(name).c_str(),
-              static_cast<long long>(options.frame), picture.width, picture.height, stats->primitives,
+              static_cast<long long>(options.scene_frame()), picture.width, picture.height, stats->primitives,
               stats->gte_ms, stats->ot_ms, stats->raster_ms);
   if (stats->was_stopped) {
     return base::fail("interrupted: " + output.string() + " shows an order that is not finished",
                       base::Exit::interrupted);
   }
+  return {};
+}
+
+// The same for a frame of a dump, or the list of a RAM image.
+base::Result<void> render_recording(Source source, const RenderOptions& options) {
+  auto knobs = options.knobs;
+  if (knobs.without_depth == scene::Knobs().without_depth) knobs.without_depth = foreign_without_depth;
+  const std::uint64_t frame = options.frame.value_or(1);
+  const auto timeline = open_at_frame(source, knobs, frame);
+  if (!timeline) return tl::make_unexpected(timeline.error());
+  const auto& gpu = (*timeline)->seek({frame, debug::whole_frame});
+  if (auto judged = judge_without_depth(options.scene, knobs, {(*timeline)->frame_end(), frame}); !judged)
+    return judged;
+  const auto picture = shown_picture(gpu, options.output);
+  if (!picture) return tl::make_unexpected(picture.error());
+  if (auto written = display::write_png(options.output, *picture); !written) return written;
+  std::printf("%s: %s frame %llu, %dx%d, %llu commands\n", base::printable(options.output).c_str(),
+              base::printable(options.scene).c_str(), static_cast<unsigned long long>(frame), picture->width,
+              picture->height, static_cast<unsigned long long>((*timeline)->commands_in(frame)));
   return {};
 }
 
@@ -91,11 +117,11 @@ base::Result<int> render(const RenderOptions& options) {
     return base::fail("expected SCENE or FILE, or --all; the scenes are " + scene_names());
   if (options.output.empty())
     return base::fail("--output: expected the PNG file to write, as -o " + options.scene + ".png");
-  auto scene = open_scene(options.scene);
-  if (!scene) return tl::make_unexpected(scene.error());
-  if (auto done = render_one(std::move(*scene), options, options.output); !done) {
-    return tl::make_unexpected(done.error());
-  }
+  auto source = open_source(options.scene, options.ram);
+  if (!source) return tl::make_unexpected(source.error());
+  const auto done = source->is_recording() ? render_recording(std::move(*source), options)
+                                           : render_one(std::move(*source->scene), options, options.output);
+  if (!done) return tl::make_unexpected(done.error());
   return 0;
 }
 
@@ -103,13 +129,15 @@ base::Result<int> render(const RenderOptions& options) {
 
 Action add_render(Arguments arguments) {
   const auto options = std::make_shared<RenderOptions>();
-  arguments.positional("scene", "SCENE|FILE", options->scene,
-                       "a scene of `otter list`, or an .obj or .x3d file");
+  arguments.positional(
+      "scene", "SCENE|FILE", options->scene,
+      "a scene of `otter list`, an .obj or .x3d file, a GPU dump, or a RAM image with --head");
   arguments.text("-o,--output", "FILE", options->output, "the PNG file to write");
-  arguments.number("--frame", "N", options->frame, std::int64_t{0}, std::int64_t{1'000'000'000},
-                   "frame N shows the scene after N/60 s [0]");
+  arguments.number("--frame", "N", options->frame, std::uint64_t{0}, std::uint64_t{1'000'000'000},
+                   "of a scene the state after N/60 s [0], of a recording from 1 [1]");
   arguments.flag("--all", options->all, "render every scene of `otter list`");
   arguments.text("-d,--directory", "DIR", options->directory, "with --all: where to write SCENE.png [out]");
+  add_ram_options(arguments, options->ram);
   arguments.knobs(options->knobs);
   return [options] { return render(*options); };
 }

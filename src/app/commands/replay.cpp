@@ -1,23 +1,29 @@
 // otter replay: a GPU dump into VRAM.
 
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/expect.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
+#include "app/commands/shown.h"
 #include "app/commands/without_depth.h"
+#include "app/source.h"
 #include "base/message.h"
 #include "base/write_file.h"
+#include "debug/list.h"
+#include "debug/timeline.h"
 #include "display/png.h"
-#include "display/scanout.h"
 #include "display/vram_file.h"
 #include "dump/dump_file.h"
 #include "scene/plan.h"
@@ -26,23 +32,87 @@ namespace app {
 namespace {
 
 struct ReplayOptions {
-  std::string dump, vram, output, readback;
-  std::optional<std::uint64_t> frame, until;
+  std::string dump, vram, output, readback, until, json;
+  std::optional<std::uint64_t> frame;
   std::uint64_t repeat = 0;
   bool list = false;
+  ExpectOptions expect;
   scene::Knobs knobs;
 };
 
-base::Result<void> check(const ReplayOptions& options, const dump::Dump& dump) {
+base::Result<void> check_options(const ReplayOptions& options) {
+  if (!options.json.empty() && !options.list && !options.expect.is_asked())
+    return base::fail("--json: expected --list, --expect or --expect-frames beside it");
+  if (!options.json.empty() && options.list && options.expect.is_asked())
+    return base::fail("--json: expected either --list or --expect beside it");
+  if (!options.expect.expect.empty() && !options.expect.frames.empty())
+    return base::fail("--expect-frames: expected no --expect beside it");
+  if (!options.expect.is_asked() && !(options.expect.mask.empty() && options.expect.difference.empty()))
+    return base::fail("--mask, --difference: expected --expect or --expect-frames beside it");
+  return {};
+}
+
+/// Where a replay ends, as --frame and --until say.
+struct End {
+  dump::ReplayOptions limits;
+  debug::ListEnd list;
+};
+
+/// --until K counts drawing commands, --until F:K all of frame F.
+base::Result<void> put_until(const ReplayOptions& options, debug::Timeline& timeline, End& end) {
+  const auto& dump = timeline.dump();
+  if (const auto number = debug::parse_number(options.until)) {
+    if (number->frame < 1 || number->frame > timeline.frames() || number->command < 1 ||
+        number->command > timeline.commands_in(number->frame)) {
+      const bool has_frame = number->frame >= 1 && number->frame <= timeline.frames();
+      return base::fail("--until " + options.until + ": " + options.dump + " has " +
+                        (has_frame ? std::to_string(timeline.commands_in(number->frame)) +
+                                         " commands in frame " + std::to_string(number->frame)
+                                   : std::to_string(timeline.frames()) + " frames"));
+    }
+    const auto place = timeline.commands(number->frame)[number->command - 1].end;
+    end.list.number = number;
+    end.limits.end_packet = place.packet;
+    end.limits.end_words = place.word;
+    return {};
+  }
+  std::uint64_t drawing = 0;
+  const auto [rest, error] =
+      std::from_chars(options.until.data(), options.until.data() + options.until.size(), drawing);
+  if (error != std::errc() || rest != options.until.data() + options.until.size() || drawing == 0)
+    return base::fail("--until: expected the number of a drawing command, from 1, or F:K, got " +
+                      options.until);
+  if (drawing > dump.drawing_commands) {
+    return base::fail("--until " + options.until + ": " + options.dump + " has " +
+                      std::to_string(dump.drawing_commands) + " drawing commands");
+  }
+  end.limits.until = drawing;
+  end.list.number = timeline.find_drawing(drawing);
+  return {};
+}
+
+base::Result<End> end_of(const ReplayOptions& options, debug::Timeline& timeline) {
+  const auto& dump = timeline.dump();
   if (options.frame && *options.frame > dump.vsyncs) {
     return base::fail("--frame " + std::to_string(*options.frame) + ": " + options.dump + " has " +
                       std::to_string(dump.vsyncs) + " VSync packets");
   }
-  if (options.until && *options.until > dump.drawing_commands) {
-    return base::fail("--until " + std::to_string(*options.until) + ": " + options.dump + " has " +
-                      std::to_string(dump.drawing_commands) + " drawing commands");
+  End end{.limits = {.frame = options.frame}, .list = {.number = {}, .frame = options.frame}};
+  if (options.until.empty()) return end;
+  return put_until(options, timeline, end).map([&] { return end; });
+}
+
+base::Result<void> list(const ReplayOptions& options, debug::Timeline& timeline, const debug::ListEnd& end) {
+  if (options.json.empty()) {
+    debug::list_text(timeline, end, [](const std::string& line) { std::puts(line.c_str()); });
+    return {};
   }
-  return {};
+  const auto write_to = [&](std::FILE* file) -> base::Result<void> {
+    debug::list_json(timeline, options.dump, end,
+                     [file](const std::string& text) { std::fwrite(text.data(), 1, text.size(), file); });
+    return {};
+  };
+  return options.json == "-" ? write_to(stdout) : base::write_file(options.json, write_to);
 }
 
 /// The fastest of `rounds` replays, each from the initial state, which is made outside the timed part.
@@ -66,15 +136,9 @@ base::Result<void> save(const ReplayOptions& options, const gpu::Gpu& gpu,
     if (auto written = display::save_vram(options.vram, gpu.vram()); !written) return written;
   }
   if (!options.output.empty()) {
-    const display::Area area = display::area_of(gpu.display());
-    if (area.width <= 0 || area.height <= 0) {
-      return base::fail(options.output + ": the dump leaves an empty display area (" +
-                            std::to_string(area.width) + " x " + std::to_string(area.height) +
-                            " pixels), expected GP1(06h) and GP1(07h) with a range; --vram has the rest",
-                        base::Exit::failed);
-    }
-    const auto picture = display::scan_out(gpu.vram().pixels(), area);
-    if (auto written = display::write_png(options.output, picture); !written) return written;
+    const auto picture = shown_picture(gpu, options.output);
+    if (!picture) return tl::make_unexpected(picture.error());
+    if (auto written = display::write_png(options.output, *picture); !written) return written;
   }
   if (options.readback.empty()) return {};
   return base::write_file(options.readback, [&](std::FILE* file) -> base::Result<void> {
@@ -99,33 +163,36 @@ base::Result<int> replay(const ReplayOptions& options) {
     return base::fail("--visibility: a dump can be drawn by ot, in its own order, or by zbuffer");
   }
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  if (auto checked = check_options(options); !checked) return tl::make_unexpected(checked.error());
   if (auto checked = check_without_depth(options.dump, options.knobs, false); !checked)
     return tl::make_unexpected(checked.error());
-  auto dump = dump::read_dump(options.dump);
-  if (!dump) return tl::make_unexpected(dump.error());
-  if (auto checked = check(options, *dump); !checked) return tl::make_unexpected(checked.error());
-  if (dump->gpu_version == 3) {
+  auto read = dump::read_dump(options.dump);
+  if (!read) return tl::make_unexpected(read.error());
+  debug::Timeline timeline(debug::Recording(std::move(*read)), draw_options(options.knobs));
+  const auto& dump = timeline.dump();
+  const auto end = end_of(options, timeline);
+  if (!end) return tl::make_unexpected(end.error());
+  if (dump.gpu_version == 3) {
     base::warn("otter replay", options.dump + ": made for 2 MB of VRAM, drawn with 1 MB");
   }
-
-  dump::ReplayOptions limits{.frame = options.frame, .until = options.until};
   if (options.list) {
-    dump::list_dump(*dump, limits, [](const std::string& line) { std::puts(line.c_str()); });
-  } else {
-    print_summary(options.dump, *dump);
+    if (auto listed = list(options, timeline, end->list); !listed) return tl::make_unexpected(listed.error());
+  } else if (options.json != "-") {
+    print_summary(options.dump, dump);
   }
+  dump::ReplayOptions limits = end->limits;
   std::vector<std::uint32_t> readback;
   gpu::Gpu gpu;
   gpu.set_depth(scene::depth_options(options.knobs));
   limits.readback = options.readback.empty() ? nullptr : &readback;
   const Interrupt interrupt;
-  Progress progress("replay", dump->words.size());
+  Progress progress("replay", dump.words.size());
   limits.keep_going = [&](std::uint64_t words) {
     progress.at(words);
     return !interrupt.was_asked();
   };
-  const auto end = dump::replay(*dump, gpu, limits);
-  if (auto judged = judge_without_depth(options.dump, options.knobs, end); !judged)
+  const auto replayed = dump::replay(dump, gpu, limits);
+  if (auto judged = judge_without_depth(options.dump, options.knobs, replayed); !judged)
     return tl::make_unexpected(judged.error());
   if (auto saved = save(options, gpu, readback); !saved) return tl::make_unexpected(saved.error());
   if (interrupt.was_asked()) {
@@ -135,9 +202,17 @@ base::Result<int> replay(const ReplayOptions& options) {
   limits.keep_going = {};
   if (options.repeat > 0) {
     std::printf("ns_per_replay %llu\n", static_cast<unsigned long long>(
-                                            best_nanoseconds(*dump, limits, options.knobs, options.repeat)));
+                                            best_nanoseconds(dump, limits, options.knobs, options.repeat)));
   }
-  return 0;
+  if (!options.expect.is_asked()) return 0;
+  auto expect = options.expect;
+  expect.json = options.json;
+  // Of --frame and --until the earlier one.
+  const debug::Number last{options.frame.value_or(timeline.frames()), debug::whole_frame};
+  const bool is_until = end->list.number && end->list.number->frame <= last.frame;
+  const debug::Number moment = is_until ? *end->list.number : last;
+  return check_expected(expect, options.dump, timeline, moment, [&] { return !interrupt.was_asked(); })
+      .map([](bool is_good) { return is_good ? 0 : static_cast<int>(base::Exit::failed); });
 }
 
 }  // namespace
@@ -152,11 +227,14 @@ Action add_replay(Arguments arguments) {
   arguments.text("-o,--output", "FILE", options->output, "write the display area as a PNG");
   arguments.number("--frame", "N", options->frame, std::uint64_t{1}, most,
                    "stop at the Nth VSync packet, from 1");
-  arguments.number("--until", "K", options->until, std::uint64_t{1}, most,
-                   "stop after the Kth drawing command, from 1");
+  arguments.text("--until", "K|F:K", options->until,
+                 "stop after the Kth drawing command, or after command K of frame F, both from 1");
   arguments.number("--repeat", "N", options->repeat, std::uint64_t{1}, std::uint64_t{1'000'000'000},
                    "replay N times more and print ns_per_replay, the fastest");
-  arguments.flag("--list", options->list, "print every command in words");
+  arguments.flag("--list", options->list, "print every command in words, with its number F:K");
+  arguments.text_or("--json", "FILE", options->json, "-",
+                    "with --list or --expect: the report as JSON; no FILE or -: standard output");
+  add_expect_options(arguments, options->expect);
   arguments.text("--readback", "FILE", options->readback, "write the words that the dump reads back");
   options->knobs.without_depth = foreign_without_depth;
   arguments.knobs(options->knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",

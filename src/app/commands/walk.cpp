@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -15,9 +13,9 @@
 #include "app/commands/commands.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
+#include "app/commands/ram_image.h"
 #include "app/commands/without_depth.h"
 #include "base/message.h"
-#include "base/read_file.h"
 #include "display/vram_file.h"
 #include "gpu/depth.h"
 #include "gpu/gpu.h"
@@ -34,57 +32,6 @@ struct WalkOptions {
   std::string image, head, table, vram_in, vram;
   scene::Knobs knobs;
 };
-
-/// Hexadecimal with or without 0x or h; the segment bits of a pointer are dropped.
-std::optional<std::uint32_t> parse_address(std::string text) {
-  if (text.starts_with("0x") || text.starts_with("0X")) text.erase(0, 2);
-  if (text.ends_with('h') || text.ends_with('H')) text.pop_back();
-  std::uint32_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return ot::tag::Next::get(value);
-}
-
-base::Result<std::uint32_t> address_option(const char* option, const std::string& text) {
-  if (const auto address = parse_address(text)) return *address;
-  return base::fail(std::string(option) + ": expected a hexadecimal address such as 80123000, got '" + text +
-                    "'");
-}
-
-base::Result<ot::MainRam> read_image(const std::string& path) {
-  const auto bytes = base::read_file(path, static_cast<std::uint64_t>(ot::RamSize::mib8));
-  if (!bytes) return tl::make_unexpected(bytes.error());
-  for (const auto size : {ot::RamSize::mib2, ot::RamSize::mib8}) {
-    if (bytes->size() != static_cast<std::size_t>(size)) continue;
-    ot::MainRam ram(size);
-    const auto words = ram.words();
-    for (std::size_t n = 0; n < bytes->size(); ++n) {
-      words[n / 4] |= std::to_integer<std::uint32_t>((*bytes)[n]) << 8 * (n % 4);
-    }
-    return ram;
-  }
-  return base::fail(path + ": expected the 2097152 or 8388608 bytes of main RAM, got " +
-                    std::to_string(bytes->size()));
-}
-
-base::Result<std::optional<inspect::TableRange>> table_option(const std::string& text,
-                                                              const ot::MainRam& ram) {
-  if (text.empty()) return std::nullopt;
-  const auto comma = text.find(',');
-  const auto address = parse_address(text.substr(0, comma));
-  std::uint32_t length = 0;
-  const auto number = comma == std::string::npos ? std::string() : text.substr(comma + 1);
-  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), length);
-  if (!address || error != std::errc() || end != number.data() + number.size() || length == 0 ||
-      *address % 4 != 0) {
-    return base::fail("--table: expected ADDR,N such as 80123000,1024, got '" + text + "'");
-  }
-  if (*address >= ram.size_bytes() || length > (ram.size_bytes() - *address) / 4) {
-    return base::fail("--table: " + text + " does not lie within the " + std::to_string(ram.size_bytes()) +
-                      " bytes of RAM");
-  }
-  return inspect::TableRange{*address, length};
-}
 
 /// How the drawing packets lie in the buckets, in list order.
 struct Buckets {
@@ -167,22 +114,18 @@ base::Result<int> walk(const WalkOptions& options) {
     return base::fail("--visibility: a list can be drawn by ot, in its own order, or by zbuffer");
   }
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
-  const auto ram = read_image(options.image);
-  if (!ram) return tl::make_unexpected(ram.error());
-  const auto head = address_option("--head", options.head);
-  if (!head) return tl::make_unexpected(head.error());
-  const auto table = table_option(options.table, *ram);
-  if (!table) return tl::make_unexpected(table.error());
-  if (auto checked = check_without_depth(options.image, options.knobs, table->has_value()); !checked)
+  const auto image = read_ram_image(options.image, options.head, options.table);
+  if (!image) return tl::make_unexpected(image.error());
+  const auto& [ram, head, table] = *image;
+  if (auto checked = check_without_depth(options.image, options.knobs, table.has_value()); !checked)
     return tl::make_unexpected(checked.error());
   gpu::Gpu gpu;
-  if (!options.vram_in.empty()) {
-    if (auto loaded = display::load_vram(options.vram_in, gpu.vram()); !loaded)
-      return tl::make_unexpected(loaded.error());
-  }
+  const auto vram = read_vram(options.vram_in);
+  if (!vram) return tl::make_unexpected(vram.error());
+  std::ranges::copy(*vram, gpu.vram().pixels().begin());
 
-  auto lint = inspect::lint_list(*ram, *head, *table);
-  const auto walked = ot::validate(*ram, *head);
+  auto lint = inspect::lint_list(ram, head, table);
+  const auto walked = ot::validate(ram, head);
   std::printf("%s: %u tags, %u words\n", base::printable(options.image).c_str(), walked.nodes, walked.words);
   if (!walked) {
     print_lint(lint);
@@ -192,15 +135,15 @@ base::Result<int> walk(const WalkOptions& options) {
   gpu::Trace trace;
   Buckets buckets;
   const Interrupt interrupt;
-  const auto end = draw(*ram, *head, walked.nodes, *table,
+  const auto end = draw(ram, head, walked.nodes, table,
                         options.knobs.without_depth == scene::WithoutDepth::bucket, gpu, trace, buckets);
   if (trace.is_full) return base::fail(options.image + ": " + trace.limit_text());
   std::printf("drawing commands: %zu\n", trace.draws.size());
-  if (*table) buckets.print();
+  if (table) buckets.print();
   if (const auto unsorted = buckets.order()) lint.push_back(*unsorted);
-  std::ranges::copy(inspect::lint_draws(trace), std::back_inserter(lint));
+  std::ranges::copy(inspect::lint_draws(trace, 1), std::back_inserter(lint));
   print_lint(lint);
-  if (auto judged = judge_without_depth(options.image, options.knobs, end); !judged)
+  if (auto judged = judge_without_depth(options.image, options.knobs, {end, 1}); !judged)
     return tl::make_unexpected(judged.error());
   if (!options.vram.empty()) {
     if (auto saved = display::save_vram(options.vram, gpu.vram()); !saved)

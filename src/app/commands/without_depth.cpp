@@ -16,10 +16,11 @@ base::Result<void> check_without_depth(const std::string& source, const scene::K
 }
 
 base::Result<void> judge_without_depth(const std::string& source, const scene::Knobs& knobs,
-                                       const gpu::FrameEnd& end) {
+                                       const dump::ReplayEnd& end) {
   if (end.polygons_without_depth == 0) return {};
   const std::string found = source + ": " + std::to_string(end.polygons_without_depth) +
-                            " polygons without depth, the first is drawing command " +
+                            " polygons without depth, the first is command " +
+                            std::to_string(end.first_frame) + ":" +
                             std::to_string(end.first_without_depth + 1);
   if (knobs.without_depth == WithoutDepth::error) {
     return base::fail(

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/result.h"
-#include "gpu/gpu.h"
+#include "dump/dump.h"
 #include "scene/knobs.h"
 
 namespace app {
@@ -19,6 +19,6 @@ base::Result<void> check_without_depth(const std::string& source, const scene::K
 /// After it: one line on stderr that counts the polygons drawn without depth. Error (exit 1): with
 /// --without-depth error.
 base::Result<void> judge_without_depth(const std::string& source, const scene::Knobs& knobs,
-                                       const gpu::FrameEnd& end);
+                                       const dump::ReplayEnd& end);
 
 }  // namespace app

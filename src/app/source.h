@@ -1,0 +1,60 @@
+#pragma once
+// What stands where a scene may stand on the command line, or is dropped on the window: a scene of `otter
+// list`, a scene file, a GPU dump, or the list in a saved RAM image. Told by what is in the file, never by
+// its name where its bytes say it.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "app/commands/arguments.h"
+#include "base/result.h"
+#include "debug/recording.h"
+#include "debug/timeline.h"
+#include "scene/knobs.h"
+#include "scene/world.h"
+
+namespace app {
+
+/// --head, --table, --vram-in: what makes a RAM image a source. Empty: not given.
+struct RamOptions {
+  std::string head, table, vram_in;
+};
+/// Declares the three.
+void add_ram_options(Arguments& arguments, RamOptions& options);
+
+/// Either a scene or a recording. A value: whoever opens it owns it.
+struct Source {
+  std::string name;  ///< as it was given
+  std::optional<scene::Scene> scene;
+  std::optional<debug::Recording> recording;
+
+  [[nodiscard]] bool is_recording() const { return recording.has_value(); }
+};
+
+/// Opens what `name` means. Of a dump nothing but the beginning is read. Error (exit 2): one line that names
+/// what was expected.
+base::Result<Source> open_source(const std::string& name, const RamOptions& ram = {});
+
+/// The timeline of a source that is a recording, its first frame read. `source.recording` is empty then.
+/// Error (exit 2): no frame of it is whole, or the knobs ask for what it has not got (visibility sorted or
+/// bsp, depths of buckets).
+base::Result<std::unique_ptr<debug::Timeline>> open_timeline(Source& source, const scene::Knobs& knobs);
+
+/// How a recording is drawn with these knobs.
+debug::DrawOptions draw_options(const scene::Knobs& knobs);
+
+/// Whether a knob does anything for a recording; of visibility, ot and zbuffer.
+bool applies_to_recordings(std::string_view knob);
+/// Why the others do not, for people.
+inline constexpr std::string_view why_not_for_recordings =
+    "a recording holds packets as they were sent, not the world they came from";
+/// One line on stderr that names the knobs which were set and do nothing. Nothing where there are none.
+void warn_of_idle_knobs(const std::string& name, const scene::Knobs& knobs);
+
+/// Says on stderr, in one line, what is wrong with the rest of a dump whose first frames are used.
+void warn_of_fault(const debug::Timeline& timeline);
+
+}  // namespace app
