@@ -224,4 +224,10 @@ std::vector<LintItem> lint_draws(const gpu::Trace& trace, std::uint64_t frame) {
   return items;
 }
 
+std::string why_nothing(const gpu::Trace& trace, std::uint32_t draw) {
+  if (trace.draws[draw].kind != gpu::Kind::polygon) return "wrote no pixel";
+  const auto& reason = unseen_texts[static_cast<std::size_t>(why_unseen(trace.draws[draw]))];
+  return std::string(reason.kind) + ": " + reason.text;
+}
+
 }  // namespace inspect

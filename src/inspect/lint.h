@@ -51,4 +51,7 @@ std::vector<LintItem> lint_buckets(const BucketFaults& faults, std::uint32_t len
 /// no-area, outside-area, not-seen (transparent texels, masked or behind).
 std::vector<LintItem> lint_draws(const gpu::Trace& trace, std::uint64_t frame);
 
+/// The same of one draw that wrote none, as a clause.
+std::string why_nothing(const gpu::Trace& trace, std::uint32_t draw);
+
 }  // namespace inspect

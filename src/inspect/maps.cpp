@@ -94,16 +94,21 @@ base::Picture heatmap(const Report& report, std::span<const std::uint16_t> vram)
   return image;
 }
 
+std::span<const base::Rgba> overdraw_colours() {
+  static constexpr std::array<base::Rgba, 9> ramp{{{0, 0, 0},
+                                                   {20, 40, 120},
+                                                   {20, 90, 180},
+                                                   {10, 150, 150},
+                                                   {40, 180, 60},
+                                                   {190, 200, 30},
+                                                   {245, 160, 20},
+                                                   {240, 90, 20},
+                                                   {230, 20, 30}}};
+  return ramp;
+}
+
 base::Picture overdraw(const Report& report, const gpu::Trace& trace) {
-  constexpr std::array<base::Rgba, 9> ramp{{{0, 0, 0},
-                                            {20, 40, 120},
-                                            {20, 90, 180},
-                                            {10, 150, 150},
-                                            {40, 180, 60},
-                                            {190, 200, 30},
-                                            {245, 160, 20},
-                                            {240, 90, 20},
-                                            {230, 20, 30}}};
+  const auto ramp = overdraw_colours();
   std::vector<std::uint32_t> writes(Vram::size);
   for (const gpu::Event& event : trace.history) {
     if (trace.draws[event.draw].kind <= gpu::Kind::line) ++writes[event.pixel];

@@ -19,6 +19,9 @@ base::Rgba colour_of(Cause cause);
 /// 512 pixels as the frame left them. A wrong pixel without a cause (visibility bsp) is white.
 base::Picture heatmap(const Report& report, std::span<const std::uint16_t> vram);
 
+/// The colours of overdraw: 0 times, 1 .. 7 times, 8 and more.
+std::span<const base::Rgba> overdraw_colours();
+
 /// How often each pixel was written, or would have been but for the depth test: black
 /// 0, blue 1 .. red 8 and more.
 base::Picture overdraw(const Report& report, const gpu::Trace& trace);
