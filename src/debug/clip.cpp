@@ -1,0 +1,266 @@
+#include "debug/clip.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdio>
+#include <span>
+#include <utility>
+
+#include "debug/timeline.h"
+#include "ot/command_stream.h"
+#include "ot/describe.h"
+#include "ot/gp1.h"
+#include "ot/walker.h"
+
+namespace debug {
+namespace {
+
+bool is_annotation(std::uint32_t word) { return ot::gp0::command_of(word) == ot::gp0::Command::annotation; }
+
+/// Cuts words into items.
+class Cutter {
+ public:
+  explicit Cutter(std::vector<Item>& items) : items_(items) {}
+
+  /// Where the words to come are from.
+  void set_node(std::uint32_t address, std::uint32_t bucket, std::string origin) {
+    address_ = address;
+    bucket_ = bucket;
+    origin_ = std::move(origin);
+  }
+
+  /// Words that end a command of which the beginning is not known. `counts`: the GPU begins to obey it here.
+  void rest(std::span<const std::uint32_t> words, bool counts) {
+    if (items_.empty() || !items_.back().is_rest) {
+      const bool is_first =
+          std::none_of(items_.begin(), items_.end(), [](const auto& i) { return i.is_rest; });
+      items_.push_back({.number = counts && is_first ? ++count_ : 0, .is_rest = true});
+    }
+    auto& all = items_.back().words;
+    all.insert(all.end(), words.begin(), words.end());
+  }
+
+  void gp0(std::span<const std::uint32_t> words) {
+    for (std::size_t n = 0; n < words.size(); ++n) {
+      if (const auto pixels = stream_.skip_pixels(words.size() - n); pixels != 0) {
+        const auto from = words.begin() + static_cast<std::ptrdiff_t>(n);
+        now_.words.insert(now_.words.end(), from, from + static_cast<std::ptrdiff_t>(pixels));
+        n += pixels;
+        if (n == words.size()) return;
+      }
+      take(words[n]);
+    }
+  }
+
+  void gp1(std::uint32_t word) {
+    cut();
+    if (ot::gp1::aborts_command(word)) {
+      stream_.abort();
+      now_ = {};
+    }
+    Item item{.number = ++count_, .is_control = true};
+    item.words = {word};
+    items_.push_back(std::move(item));
+  }
+
+  void finish() { cut(); }
+
+ private:
+  void take(std::uint32_t word) {
+    if (now_.words.empty() && !now_.is_rest) {
+      now_.address = address_;
+      now_.bucket = bucket_;
+      now_.origin = origin_;
+    }
+    now_.words.push_back(word);
+    const bool is_whole = stream_.take(word);
+    if (stream_.command() == ot::gp0::Command::annotation) return;
+    if (begins(is_whole)) now_.number = ++count_;
+    if (!is_whole) return;
+    items_.push_back(std::exchange(now_, {}));
+  }
+  // When the GPU begins to obey: an upload when its size is known, a polyline with its first segment.
+  [[nodiscard]] bool begins(bool is_whole) const {
+    if (stream_.command() == ot::gp0::Command::upload) return stream_.length() == 3;
+    if (stream_.command() == ot::gp0::Command::polyline) return stream_.length() == stream_.needed();
+    return is_whole;
+  }
+  // What there is of the command becomes an item, and the rest of it another one.
+  void cut() {
+    if (now_.words.empty()) return;
+    Item rest{.number = now_.number, .is_rest = true, .bucket = now_.bucket, .address = now_.address};
+    rest.origin = now_.origin;
+    items_.push_back(std::exchange(now_, std::move(rest)));
+  }
+
+  std::vector<Item>& items_;
+  ot::CommandStream stream_;
+  Item now_;
+  std::uint32_t count_ = 0, address_ = 0, bucket_ = gpu::no_bucket;
+  std::string origin_;
+};
+
+std::string hex(std::uint32_t address) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%06Xh", address);
+  return text.data();
+}
+
+/// All of VRAM as one upload.
+std::vector<std::uint32_t> upload_of(const gpu::Vram& vram) {
+  std::vector<std::uint32_t> words{
+      ot::gp0::Opcode::put(0xa0), 0,
+      ot::gp0::area::Width::put(gpu::Vram::width) | ot::gp0::area::Height::put(gpu::Vram::height)};
+  const auto pixels = vram.pixels();
+  for (std::size_t i = 0; i < pixels.size(); i += 2) {
+    words.push_back(pixels[i] | std::uint32_t{pixels[i + 1]} << 16);
+  }
+  return words;
+}
+
+/// The registers of a state, as commands.
+std::array<std::uint32_t, 7> registers_of(const gpu::DrawState& state) {
+  using ot::gp0::Opcode;
+  return {ot::gp0::clear_cache,
+          Opcode::put(0xe1) | ot::gp0::draw_mode::All::get(state.draw_mode),
+          Opcode::put(0xe2) | (state.texture_window & 0xffffff),
+          Opcode::put(0xe3) | (state.area_top_left & 0xffffff),
+          Opcode::put(0xe4) | (state.area_bottom_right & 0xffffff),
+          Opcode::put(0xe5) | (state.offset & 0xffffff),
+          Opcode::put(0xe6) | (state.mask & 0xffffff)};
+}
+
+std::array<std::uint32_t, 5> display_words(const gpu::Display& display) {
+  const auto put = [](std::uint32_t command, std::uint32_t value) {
+    return command << 24 | (value & 0xffffff);
+  };
+  return {put(0x03, display.is_off ? 1 : 0), put(0x05, display.start), put(0x06, display.horizontal_range),
+          put(0x07, display.vertical_range), put(0x08, display.mode)};
+}
+
+}  // namespace
+
+std::size_t Item::command_at() const {
+  if (is_control) return 0;
+  return static_cast<std::size_t>(std::find_if_not(words.begin(), words.end(), is_annotation) -
+                                  words.begin());
+}
+
+bool Item::is_drawing() const {
+  const auto at = command_at();
+  return !is_control && !is_rest && at < words.size() && ot::gp0::is_drawing(ot::gp0::command_of(words[at]));
+}
+
+std::string Item::text() const {
+  if (is_control) return words.empty() ? "" : ot::describe_control(words[0]);
+  if (is_rest) return "the rest of a command (" + std::to_string(words.size()) + " words)";
+  const auto at = command_at();
+  if (at == words.size()) return "depths of nothing";
+  const auto command = std::span(words).subspan(at);
+  const bool is_upload = ot::gp0::command_of(command[0]) == ot::gp0::Command::upload;
+  const auto told = is_upload ? command.first(std::min<std::size_t>(command.size(), 3)) : command;
+  return ot::describe(told.first(std::min(told.size(), ot::CommandStream::kept_words)), command.size());
+}
+
+Clip clip_of(Timeline& timeline, std::uint64_t frame) {
+  const auto& recording = timeline.recording();
+  if (recording.image()) {
+    return clip_of_list(recording.image()->ram, recording.image()->head, recording.image()->table,
+                        recording.start());
+  }
+  Clip clip;
+  clip.state = timeline.seek({.frame = frame, .command = 0}).save();
+  const auto& dump = timeline.dump();
+  const auto& where = timeline.frame(frame);
+  const auto& commands = timeline.commands(frame);
+  const auto first =
+      std::find_if(commands.begin(), commands.end(), [](const auto& c) { return !c.is_control; });
+  const bool is_late = first != commands.end() && first->begin.packet < where.first_packet;
+  const Place begin = first == commands.end() ? Place{where.end_packet, 0}
+                      : is_late               ? first->end
+                                              : first->begin;
+  Cutter cutter(clip.items);
+  for (std::size_t n = where.first_packet; n < where.end_packet; ++n) {
+    const auto& packet = dump.packets[n];
+    const auto words = dump.payload(packet);
+    if (packet.type == dump::PacketType::port1) {
+      for (const auto word : words) cutter.gp1(word);
+    }
+    if (packet.type != dump::PacketType::port0) continue;
+    const std::size_t before = n < begin.packet    ? words.size()
+                               : n == begin.packet ? std::min<std::size_t>(begin.word, words.size())
+                                                   : 0;
+    if (before != 0) cutter.rest(words.first(before), is_late);
+    cutter.gp0(words.subspan(before));
+  }
+  cutter.finish();
+  return clip;
+}
+
+Clip clip_of_list(const ot::MainRam& ram, std::uint32_t head, const std::optional<inspect::TableRange>& table,
+                  std::vector<std::byte> state) {
+  Clip clip;
+  clip.state = std::move(state);
+  clip.is_list_in_ram = true;
+  clip.buckets = table ? table->length : 0;
+  clip.lint = inspect::lint_list(ram, head, table);
+  const auto walked = ot::validate(ram, head);
+  Cutter cutter(clip.items);
+  std::uint32_t bucket = gpu::no_bucket;
+  ot::send_nodes(ram.words(), head, walked.nodes,
+                 [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
+                   const auto at = tag & (ram.size_bytes() - 4);
+                   if (table && at >= table->address && (at - table->address) / 4 < table->length) {
+                     bucket = (at - table->address) / 4;
+                   }
+                   if (payload.empty()) return;
+                   cutter.set_node(at, bucket, hex(at));
+                   cutter.gp0(payload);
+                 });
+  cutter.finish();
+  return clip;
+}
+
+void go_on_from(std::span<const std::byte> state, gpu::Gpu& gpu) {
+  if (state.empty()) return;
+  [[maybe_unused]] const auto error = gpu.load(state);
+  assert(!error);
+}
+
+gpu::FrameEnd play(const Clip& clip, gpu::Gpu& gpu, const PlayOptions& options) {
+  gpu.set_trace(nullptr);
+  gpu.set_depth(options.depth);
+  go_on_from(clip.state, gpu);
+  if (options.trace != nullptr) {
+    options.trace->clear();
+    gpu.set_trace(options.trace);
+  }
+  gpu.begin_frame();
+  for (std::size_t i = 0; i < clip.items.size(); ++i) {
+    const auto& item = clip.items[i];
+    if (options.before) options.before(i);
+    if (options.trace != nullptr) options.trace->bucket = item.bucket;
+    item.is_control ? gpu.gp1(item.words[0]) : gpu.gp0(item.words);
+  }
+  const auto end = gpu.end_frame();
+  gpu.set_trace(nullptr);
+  return end;
+}
+
+void write_clip(const Clip& clip, dump::DumpWriter& writer) {
+  gpu::Gpu gpu;
+  go_on_from(clip.state, gpu);
+  const std::array reset{std::uint32_t{0}};
+  writer.add(dump::PacketType::port1, reset);
+  writer.add(dump::PacketType::port0, upload_of(gpu.vram()));
+  writer.add(dump::PacketType::port0, registers_of(gpu.state()));
+  writer.add(dump::PacketType::port1, display_words(gpu.display()));
+  writer.add(dump::PacketType::trace_begin);
+  for (const auto& item : clip.items) {
+    writer.add(item.is_control ? dump::PacketType::port1 : dump::PacketType::port0, item.words);
+  }
+  writer.add(dump::PacketType::vsync);
+}
+
+}  // namespace debug
