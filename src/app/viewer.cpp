@@ -1,8 +1,10 @@
 #include "app/viewer.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
+#include "app/commands/describe.h"
 #include "gpu/canvas/canvas.h"
 #include "scene/plan.h"
 
@@ -50,8 +52,72 @@ base::Result<scene::FrameStats> Viewer::draw(std::int64_t frame, const scene::Kn
     stats = machine_.draw(seconds, knobs);
     if (!stats) return stats;
   }
+  last_stats_ = *stats;
   return stats;
 }
+
+base::Result<debug::Clip> Viewer::clip(std::int64_t frame, const scene::Knobs& knobs,
+                                       const CameraOffset& camera) {
+  if (auto checked = scene::check_knobs(knobs); !checked) return tl::make_unexpected(checked.error());
+  if (knobs.visibility == scene::Visibility::bsp) {
+    return base::fail(
+        "visibility bsp: its pieces have limits that no packet holds; expected another to take apart");
+  }
+  offset_ = camera;
+  builder_ = &machine_.builder(knobs);
+  if (builder_->needs_upload(knobs)) {
+    builder_->prepare(knobs);
+    builder_->upload(machine_.gpu());
+  }
+  const auto seconds = static_cast<double>(std::max<std::int64_t>(frame, 0)) / 60.0;
+  const auto built = builder_->build(seconds, knobs, machine_.ram(), scene::Annotate::always);
+  if (!built) return tl::make_unexpected(built.error());
+  gpu::Gpu before;
+  debug::go_on_from(machine_.gpu().save(), before);
+  before.gp1(scene::FrameBuilder::show_gp1(*built));
+  std::optional<inspect::TableRange> table;
+  if (built->buckets != 0) table = {built->table_address, built->buckets};
+  auto clip = debug::clip_of_list(machine_.ram(), built->head, table, before.save());
+  if (built->nearer_lists != 0) {
+    clip.lint.push_back({"lists", "",
+                         "the frame does not fit into RAM at once; this is the farthest of its " +
+                             std::to_string(built->nearer_lists + 1) + " lists"});
+  }
+  name_origins(clip, seconds, knobs);
+  return clip;
+}
+
+// Packets are made one behind the other, so their addresses tell which polygon each is.
+void Viewer::name_origins(debug::Clip& clip, double seconds, const scene::Knobs& knobs) {
+  std::vector<scene::ScreenPolygon> polygons;
+  builder_->polygons(seconds, knobs, polygons);
+  std::vector<debug::Item*> items;
+  for (auto& item : clip.items) {
+    const auto at = item.command_at();
+    if (item.is_drawing() && ot::gp0::command_of(item.words[at]) == ot::gp0::Command::polygon)
+      items.push_back(&item);
+  }
+  if (items.size() != polygons.size()) return;
+  std::sort(items.begin(), items.end(), [](const auto* a, const auto* b) { return a->address < b->address; });
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> pieces;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const auto& polygon = polygons[i];
+    items[i]->key = polygon.otz;
+    items[i]->origin = "i" + std::to_string(polygon.instance) + "/f" + std::to_string(polygon.face);
+    const int piece = pieces[{polygon.instance, polygon.face}]++;
+    if (piece != 0) items[i]->origin += "/p" + std::to_string(piece);
+  }
+}
+
+std::unique_ptr<Subject> Viewer::another(const scene::Knobs& knobs) const {
+  return std::make_unique<Viewer>(scene_as_given(), knobs);
+}
+
+std::unique_ptr<Subject> Viewer::apart(std::int64_t /*frame*/, const scene::Knobs& knobs) {
+  return another(knobs);
+}
+
+std::string Viewer::why_empty() const { return app::why_empty(last_stats_); }
 
 void Viewer::set_keep_going(std::function<bool(double)> keep_going) { keep_going_ = std::move(keep_going); }
 

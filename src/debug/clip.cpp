@@ -101,7 +101,7 @@ class Cutter {
   std::string origin_;
 };
 
-std::string hex(std::uint32_t address) {
+std::string address_text(std::uint32_t address) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%06Xh", address);
   return text.data();
@@ -215,7 +215,7 @@ Clip clip_of_list(const ot::MainRam& ram, std::uint32_t head, const std::optiona
                      bucket = (at - table->address) / 4;
                    }
                    if (payload.empty()) return;
-                   cutter.set_node(at, bucket, hex(at));
+                   cutter.set_node(at, bucket, address_text(at));
                    cutter.gp0(payload);
                  });
   cutter.finish();

@@ -3,7 +3,9 @@
 #include <doctest/doctest.h>
 
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
+#include <string>
 
 #include "app/window/held_keys.h"
 
@@ -71,6 +73,56 @@ TEST_SUITE("window") {
     app::look(offset, quarter, 0);
     app::fly(offset, start_camera(), {0, 0, -1}, 2);
     CHECK(near(app::moved(start_camera(), offset, 10).position, {-2, 0, 10}));
+  }
+
+  TEST_CASE("a camera's five numbers are read back as they were written") {
+    const app::CameraPlace place{{0.1F, -2.5F, 1e-3F}, -179.999, 12.345};
+    const auto read = app::parse_camera(app::to_text(place));
+    REQUIRE(read);
+    CHECK(*read == place);
+    CHECK(app::to_text({{1, 0, -3}, 90, 0}) == "1,0,-3,90,0");
+  }
+
+  TEST_CASE("what is not five numbers is no camera, and the error names it") {
+    for (const std::string text : {"", "1,2,3,4", "1,2,3,4,5,6", "1,2,3,4,x", "1,2,3,4,5 ", "nan,0,0,0,0",
+                                   "1e30,0,0,0,0", "0,0,0,0,91"}) {
+      CAPTURE(text);
+      const auto read = app::parse_camera(text);
+      REQUIRE_FALSE(read);
+      CHECK(read.error().text.find("--camera") != std::string::npos);
+      CHECK(read.error().text.find("'" + text + "'") != std::string::npos);
+    }
+  }
+
+  TEST_CASE("yaw turns to the left, pitch up; at 0, 0 a camera looks along -z") {
+    CHECK(near(forward(app::camera_at({}, {{}, 0, 0})), {0, 0, -1}));
+    CHECK(near(forward(app::camera_at({}, {{}, 90, 0})), {-1, 0, 0}));
+    CHECK(near(forward(app::camera_at({}, {{}, 0, 90})), {0, 1, 0}));
+  }
+
+  TEST_CASE("wherever the user has gone, the five numbers put a camera there, bit for bit") {
+    scene::Camera tilted = start_camera();
+    tilted.orientation =
+        glm::rotate(glm::rotate(glm::mat4(1.0F), 0.7F, glm::vec3(0, 1, 0)), 0.3F, glm::vec3(0, 0, 1));
+    for (const auto& base : {start_camera(), tilted}) {
+      app::CameraOffset offset;
+      app::orbit(offset, 0.3, -0.2);
+      app::look(offset, 1.1, 0.4);
+      app::zoom(offset, 2);
+      app::fly(offset, base, {0.1F, 0.2F, 0.3F}, 7);
+      const auto there = app::moved(base, offset, 7);
+      const auto read = app::parse_camera(app::to_text(app::place_of(base, offset, 7)));
+      REQUIRE(read);
+      const auto placed = app::moved(base, {.from = *read}, 3);
+      CHECK(placed.position == there.position);
+      CHECK(placed.orientation == there.orientation);
+    }
+  }
+
+  TEST_CASE("from a place of one's own the camera orbits and flies on") {
+    app::CameraOffset offset{.from = app::CameraPlace{{0, 0, 4}, 0, 0}};
+    app::fly(offset, start_camera(), {0, 0, -1}, 1);
+    CHECK(near(app::moved(start_camera(), offset, 2).position, {0, 0, 3}));
   }
 
   TEST_CASE("the pivot is as far away as the middle of the world") {

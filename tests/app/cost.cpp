@@ -52,6 +52,49 @@ TEST_SUITE("cost panel") {
     CHECK(times.median() == 7);
   }
 
+  TEST_CASE("the spread of nine times leaves out the two lowest and the two highest") {
+    app::RollingMedian times;
+    for (const double ms : {9.0, 1.0, 8.0, 2.0, 7.0, 3.0, 6.0, 4.0, 5.0}) times.add(ms);
+    CHECK(times.spread().low == 3);
+    CHECK(times.spread().high == 7);
+  }
+
+  TEST_CASE("a setting is dearer or cheaper only where its spread lies beyond that of the frame as it is") {
+    auto table = table_at({});
+    const scene::Knobs now;
+    const auto feed = [&table, &now](double other, double swing) {
+      for (std::size_t i = 0; i < table.lines().size() * 6; ++i) {
+        const bool is_now = table.next() == now;
+        table.add((is_now ? 10.0 : other) + (i % 2 == 0 ? swing : -swing));
+      }
+    };
+    const auto order = [&table, &now] {
+      for (const auto& line : table.lines()) {
+        if (line.knobs != now) return table.against_current(line);
+      }
+      return 0;
+    };
+    CHECK(order() == 0);  // nothing is known yet
+    feed(12, 0.5);
+    CHECK(order() == 1);
+    table = table_at({});
+    feed(8, 0.5);
+    CHECK(order() == -1);
+    table = table_at({});
+    feed(11, 3);
+    CHECK(order() == 0);
+  }
+
+  TEST_CASE("a table is settled when every line that can be drawn has been measured nine times") {
+    auto table = table_at({});
+    CHECK_FALSE(table.is_settled());
+    for (std::size_t i = 0; i < table.lines().size() * 12; ++i) {
+      table.next();
+      i % 7 == 3 ? table.fail("no") : table.add(1);
+    }
+    CHECK(table.is_settled());
+  }
+
   TEST_CASE("there is a line for every setting of every axis of the cost report") {
     const auto table = table_at({});
     std::size_t settings = 0;

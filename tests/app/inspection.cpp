@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/viewer.h"
 #include "demos/demos.h"
 
 namespace {

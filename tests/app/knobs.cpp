@@ -46,6 +46,11 @@ TEST_SUITE("window") {
           "otter render crates --frame 120 --visibility zbuffer --depth-reversed --near 0.5 -o picture.png");
   }
 
+  TEST_CASE("the command line names the frame and the camera that was moved") {
+    CHECK(app::render_command("crates", 7, {}, app::CameraPlace{{-1, 0.5F, 2}, 45, -3}) ==
+          "otter render crates --frame 7 --camera=-1,0.5,2,45,-3 -o picture.png");
+  }
+
   TEST_CASE("a file name with blanks or quotes is quoted for a shell") {
     CHECK(app::render_command("my model's.obj", 0, {}) == "otter render 'my model'\\''s.obj' -o picture.png");
   }

@@ -49,4 +49,16 @@ TEST_SUITE("window") {
     CHECK(app::wanted_area_within(640, 480, 3, {0, 0, 1280, 959}) == app::Rect{0, 0, 640, 480});
     CHECK(app::wanted_area_within(640, 480, 3, {0, 0, 100, 100}) == app::Rect{0, 0, 640, 480});
   }
+
+  TEST_CASE("letters follow the display: by points, or by dots from half as many again as usual") {
+    CHECK(app::letter_scale(96, 1, 1) == 1);
+    CHECK(app::letter_scale(110, 1, 1) == 1);
+    CHECK(app::letter_scale(192, 1, 1) == 2);
+    CHECK(app::letter_scale(150, 1, 1) == 1.5);
+    CHECK(app::letter_scale(96, 2, 1) == 2);
+    CHECK(app::letter_scale(192, 2, 1) == 2);  // points count the dots already
+    CHECK(app::letter_scale(96, 1, 1.25) == 1.25);
+    CHECK(app::letter_scale(0, 1, 1) == 1);
+    CHECK(app::letter_scale(5000, 1, 1) == 4);
+  }
 }

@@ -12,9 +12,11 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "app/viewer.h"
 #include "app/window/window_state.h"
 #include "demos/demos.h"
 #include "load/pictures.h"
@@ -25,8 +27,12 @@ namespace fs = std::filesystem;
 
 app::WindowOptions resting_window() {
   app::WindowOptions options;
-  options.scenes.push_back(
-      {"crates", [] { return base::Result<scene::Scene>(demos::make(*demos::find("crates"))); }});
+  options.scenes.push_back({"crates",
+                            [](const scene::Knobs& knobs) {
+                              return base::Result<std::unique_ptr<app::Subject>>(
+                                  std::make_unique<app::Viewer>(demos::make(*demos::find("crates")), knobs));
+                            },
+                            false});
   options.first.paused = true;
   options.scale = 1;
   return options;
@@ -72,12 +78,38 @@ TEST_SUITE("window") {
     CHECK(*status == 0);
   }
 
+  TEST_CASE("a file that is dropped on the window is opened and shown; one that cannot be is no end") {
+    setenv("SDL_VIDEODRIVER", "dummy", 1);
+    for (const bool is_good : {true, false}) {
+      REQUIRE(SDL_Init(SDL_INIT_EVENTS) == 0);
+      SDL_Event event{};
+      event.type = SDL_DROPFILE;
+      event.drop.file = SDL_strdup("dropped.psxgpu");
+      REQUIRE(SDL_PushEvent(&event) == 1);
+      auto options = resting_window();
+      int made = 0;
+      options.open = [&made, is_good](const std::string& path) -> base::Result<app::WindowScene> {
+        CHECK(path == "dropped.psxgpu");
+        if (!is_good) return base::fail("dropped.psxgpu: cannot be read");
+        return app::WindowScene{
+            path, [&made](const scene::Knobs& knobs) {
+              ++made;
+              return base::Result<std::unique_ptr<app::Subject>>(
+                  std::make_unique<app::Viewer>(demos::make(*demos::find("cyclic")), knobs));
+            }};
+      };
+      options.frames = 3;
+      REQUIRE(app::run_window(options));
+      CHECK(made == (is_good ? 1 : 0));
+    }
+  }
+
   TEST_CASE(
       "a window whose textures the graphics driver has lost shows the same picture again, at rest too") {
     std::vector<app::WindowOptions> windows(4, resting_window());
     windows[1].first.split = true;
-    windows[2].first.vram = true;
-    windows[3].first.inspect = true;
+    windows[2].first.dock.raise(app::Panel::vram);
+    windows[3].first.dock.raise(app::Panel::inspect);
     windows[3].first.map = app::Map::errors;
     for (const auto& window : windows) {
       const auto whole = picture_after(window, {});

@@ -73,8 +73,10 @@ TEST_SUITE("window") {
                                 {"F3", KeyAction::vram},
                                 {"F11", KeyAction::fullscreen},
                                 {"C", KeyAction::cost},
-                                {"F12", KeyAction::screenshot},
-                                {"Escape", KeyAction::quit},
+                                {"F12", KeyAction::save_picture},
+                                {"Shift F12", KeyAction::save_window},
+                                {"Escape", KeyAction::close},
+                                {"Ctrl +", KeyAction::larger_text},
                                 {"Q", KeyAction::quit}}) {
       CAPTURE(promise.key);
       const auto asked = app::asked_by_key(promise.key);
@@ -192,6 +194,58 @@ TEST_SUITE("window") {
     press(state, "Space");
     app::let_pass(state, 1);
     CHECK(state.frame == 0);
+  }
+
+  TEST_CASE(
+      "Escape closes the menu, then the help, then the panel opened last, then leaves full screen, and "
+      "never quits") {
+    WindowState state;
+    press(state, "F2");
+    press(state, "F4");
+    press(state, "F11");
+    press(state, "F1");
+    state.menu = true;
+    press(state, "Escape");
+    CHECK(state.close_menu);
+    CHECK(state.help);
+    state.menu = false;
+    press(state, "Escape");
+    CHECK_FALSE(state.help);
+    CHECK(state.shows(app::Panel::inspect));
+    press(state, "Escape");
+    CHECK_FALSE(state.shows(app::Panel::inspect));
+    CHECK(state.shows(app::Panel::knobs));
+    press(state, "Escape");
+    CHECK_FALSE(state.shows(app::Panel::knobs));
+    CHECK(state.fullscreen);
+    press(state, "Escape");
+    CHECK_FALSE(state.fullscreen);
+    press(state, "Escape");
+    CHECK_FALSE(state.quit);
+    press(state, "Q");
+    CHECK(state.quit);
+  }
+
+  TEST_CASE("letters grow and shrink by quarters, between a half and four times, and go back") {
+    WindowState state;
+    press(state, "Ctrl +");
+    CHECK(state.text_size == 1.25);
+    for (int i = 0; i < 40; ++i) press(state, "Ctrl +");
+    CHECK(state.text_size == 4);
+    for (int i = 0; i < 40; ++i) press(state, "Ctrl -");
+    CHECK(state.text_size == 0.5);
+    press(state, "Ctrl 0");
+    CHECK(state.text_size == 1);
+  }
+
+  TEST_CASE("E opens the inspector, shows its next map, and opens nothing twice") {
+    WindowState state;
+    press(state, "E");
+    CHECK(state.shows(app::Panel::inspect));
+    CHECK(state.map == app::Map::errors);
+    press(state, "E");
+    CHECK(state.map == app::Map::overdraw);
+    CHECK(state.dock.open.size() == 1);
   }
 
   TEST_CASE("two pictures are drawn only for the split screen and for differences") {

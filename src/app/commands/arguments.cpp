@@ -101,17 +101,22 @@ template void Arguments::number(const char*, const char*, std::optional<std::uin
 
 void Arguments::exclude(const char* a, const char* b) { sub_.get_option(a)->excludes(sub_.get_option(b)); }
 
-void Arguments::knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names) {
+void Arguments::knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names,
+                      std::vector<std::string>* given) {
+  const auto take = [&knobs, given](const std::string& name, const std::string& value) {
+    set_or_throw(knobs, name, value);
+    if (given != nullptr) given->push_back(name);
+  };
   for (const auto& knob : scene::knob_table()) {
     if (names.size() != 0 && std::find(names.begin(), names.end(), knob.name) == names.end()) continue;
     const std::string name(knob.name);
     CLI::Option* option = nullptr;
     if (knob.values == "off|on") {
       option = sub_.add_flag_callback(
-          "--" + name, [&knobs, name] { set_or_throw(knobs, name, "on"); }, std::string(knob.help));
+          "--" + name, [take, name] { take(name, "on"); }, std::string(knob.help));
     } else {
       option = sub_.add_option_function<std::string>(
-          "--" + name, [&knobs, name](const std::string& value) { set_or_throw(knobs, name, value); },
+          "--" + name, [take, name](const std::string& value) { take(name, value); },
           std::string(knob.help) + " [" + knob.get(knobs) + "]");
       option->type_name(std::string(knob.values))->take_last();
     }

@@ -56,8 +56,10 @@ class Arguments {
   void exclude(const char* a, const char* b);
 
   /// Every knob of scene::knob_table(), in the group "Knobs"; a wrong value ends parsing with the knob's own
-  /// message. `names`: only these knobs; empty: all.
-  void knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names = {});
+  /// message. `names`: only these knobs; empty: all. `given`: the names of those on the command line are
+  /// added.
+  void knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names = {},
+             std::vector<std::string>* given = nullptr);
 
   /// Text under the options of --help in place of the examples.
   void footer(std::function<std::string()> text);

@@ -33,7 +33,7 @@ namespace app {
 namespace {
 
 struct InspectOptions {
-  std::string source, frame, frames, pixel, json, heatmap, overdraw, ids, truth, depth_map;
+  std::string source, frame, frames, pixel, camera, json, heatmap, overdraw, ids, truth, depth_map;
   std::int64_t max = -1;
   RamOptions ram;
   scene::Knobs knobs;
@@ -70,8 +70,8 @@ inspect::Order order_of(const scene::Knobs& knobs) {
 
 class SceneSource : public FrameSource {
  public:
-  SceneSource(scene::Scene scene, const scene::Knobs& knobs)
-      : name_(scene.name), knobs_(knobs), machine_(std::move(scene), knobs) {}
+  SceneSource(scene::Scene scene, const scene::Knobs& knobs, CameraOffset view)
+      : name_(scene.name), knobs_(knobs), view_(view), machine_(std::move(scene), knobs) {}
 
   base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
     if (const auto unwatched = machine_.unwatched_knobs(knobs_); !unwatched.empty()) {
@@ -82,7 +82,7 @@ class SceneSource : public FrameSource {
     }
     machine_.watch(&trace);
     machine_.set_keep_going([](double) { return !Interrupt::was_asked(); });
-    const auto stats = machine_.draw(number, knobs_);
+    const auto stats = machine_.draw(number, knobs_, view_);
     machine_.watch(nullptr);
     if (!stats) return tl::make_unexpected(stats.error());
     if (trace.is_full)
@@ -118,6 +118,7 @@ class SceneSource : public FrameSource {
 
   std::string name_;
   scene::Knobs knobs_;
+  CameraOffset view_;
   Viewer machine_;
 };
 
@@ -222,7 +223,17 @@ base::Result<std::optional<Position>> pixel_of(const InspectOptions& options) {
 base::Result<std::unique_ptr<FrameSource>> open(const InspectOptions& options) {
   auto source = open_source(options.source, options.ram);
   if (!source) return tl::make_unexpected(source.error());
-  if (!source->is_recording()) return std::make_unique<SceneSource>(std::move(*source->scene), options.knobs);
+  if (!source->is_recording()) {
+    CameraOffset view;
+    if (!options.camera.empty()) {
+      const auto camera = parse_camera(options.camera);
+      if (!camera) return tl::make_unexpected(camera.error());
+      view.from = *camera;
+    }
+    return std::make_unique<SceneSource>(std::move(*source->scene), options.knobs, view);
+  }
+  if (!options.camera.empty())
+    return base::fail("--camera: " + options.source + " is a recording, whose views are drawn already");
   warn_of_idle_knobs(options.source, options.knobs);
   auto timeline = open_timeline(*source, options.knobs);
   if (!timeline) return tl::make_unexpected(timeline.error());
@@ -343,6 +354,8 @@ Action add_inspect(Arguments arguments) {
   file("--ids", options->ids, "PNG: a colour per primitive that is seen");
   file("--truth", options->truth, "PNG: the picture as it should be");
   file("--depth-map", options->depth_map, "PNG: 1/z of the true owners");
+  arguments.text("--camera", "X,Y,Z,YAW,PITCH", options->camera,
+                 "scene: stand there instead: world units and degrees, 0,0 looks along -z");
   arguments.text("--pixel", "X,Y", options->pixel, "tell the history of a pixel of the picture");
   arguments.number("--max", "N", options->max, std::int64_t{0}, std::int64_t{1} << 40,
                    "exit with 1 if more pixels are wrong");

@@ -27,11 +27,12 @@ namespace app {
 namespace {
 
 struct RenderOptions {
-  std::string scene, output, directory = "out";
+  std::string scene, output, directory = "out", camera;
   bool all = false;
   std::optional<std::uint64_t> frame;
   RamOptions ram;
   scene::Knobs knobs;
+  CameraOffset view;  // what `camera` says
 
   [[nodiscard]] std::int64_t scene_frame() const { return static_cast<std::int64_t>(frame.value_or(0)); }
 };
@@ -52,7 +53,7 @@ base::Result<void> render_one(scene::Scene scene, const RenderOptions& options,
       return !Interrupt::was_asked();
     });
   }
-  const auto stats = machine.draw(options.scene_frame(), options.knobs);
+  const auto stats = machine.draw(options.scene_frame(), options.knobs, options.view);
   if (!stats) return tl::make_unexpected(stats.error());
   const auto picture = machine.picture();
   if (auto written = display::write_png(output, picture); !written) return written;
@@ -106,8 +107,13 @@ base::Result<int> render_all(const RenderOptions& options) {
   return 0;
 }
 
-base::Result<int> render(const RenderOptions& options) {
+base::Result<int> render(RenderOptions& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
+  if (!options.camera.empty()) {
+    const auto camera = parse_camera(options.camera);
+    if (!camera) return tl::make_unexpected(camera.error());
+    options.view.from = *camera;
+  }
   if (options.all) {
     if (!options.scene.empty()) return base::fail("--all: expected no scene beside it, got " + options.scene);
     if (!options.output.empty()) return base::fail("--all: expected --directory DIR, not --output FILE");
@@ -119,6 +125,8 @@ base::Result<int> render(const RenderOptions& options) {
     return base::fail("--output: expected the PNG file to write, as -o " + options.scene + ".png");
   auto source = open_source(options.scene, options.ram);
   if (!source) return tl::make_unexpected(source.error());
+  if (source->is_recording() && !options.camera.empty())
+    return base::fail("--camera: " + options.scene + " is a recording, whose views are drawn already");
   const auto done = source->is_recording() ? render_recording(std::move(*source), options)
                                            : render_one(std::move(*source->scene), options, options.output);
   if (!done) return tl::make_unexpected(done.error());
@@ -135,6 +143,8 @@ Action add_render(Arguments arguments) {
   arguments.text("-o,--output", "FILE", options->output, "the PNG file to write");
   arguments.number("--frame", "N", options->frame, std::uint64_t{0}, std::uint64_t{1'000'000'000},
                    "of a scene the state after N/60 s [0], of a recording from 1 [1]");
+  arguments.text("--camera", "X,Y,Z,YAW,PITCH", options->camera,
+                 "stand there instead: world units and degrees, 0,0 looks along -z");
   arguments.flag("--all", options->all, "render every scene of `otter list`");
   arguments.text("-d,--directory", "DIR", options->directory, "with --all: where to write SCENE.png [out]");
   add_ram_options(arguments, options->ram);

@@ -7,6 +7,8 @@
 #include <memory>
 #include <utility>
 
+#include "app/viewer.h"
+
 namespace app {
 namespace {
 
@@ -23,7 +25,12 @@ double ms_of_this_thread() {
 }  // namespace
 
 CostMeter::CostMeter(scene::Scene scene)
-    : thread_([this, given = std::move(scene)](const std::stop_token& stop) { run(stop, given); }) {}
+    : CostMeter(std::make_unique<Viewer>(std::move(scene), scene::Knobs{})) {}
+
+CostMeter::CostMeter(std::unique_ptr<Subject> machine)
+    : thread_([this, own = std::shared_ptr<Subject>(std::move(machine))](const std::stop_token& stop) {
+        run(stop, *own);
+      }) {}
 
 void CostMeter::follow(std::int64_t frame, const scene::Knobs& knobs, const CameraOffset& camera,
                        double grant_ms) {
@@ -47,14 +54,13 @@ bool CostMeter::has_ended() const {
   return has_ended_;
 }
 
-void CostMeter::run(const std::stop_token& stop, const scene::Scene& scene) {
-  std::unique_ptr<Viewer> machine;
+void CostMeter::run(const std::stop_token& stop, Subject& machine) {
   std::unique_lock lock(mutex_);
   while (granted_.wait(lock, stop, [this] { return credit_ms_ > 0; }) && !stop.stop_requested()) {
     const Job job{frame_, table_.next(), table_.current(), camera_};
     lock.unlock();
     const double begin = ms_of_this_thread();
-    auto ms = measured(machine, scene, job);
+    auto ms = measured(machine, job);
     const double spent = ms_of_this_thread() - begin;
     lock.lock();
     credit_ms_ -= spent;
@@ -66,15 +72,13 @@ void CostMeter::run(const std::stop_token& stop, const scene::Scene& scene) {
 
 // The frame after the one before it: that allocates what the knobs call for, and temporal accumulation goes
 // on from it.
-base::Result<double> CostMeter::measured(std::unique_ptr<Viewer>& machine, const scene::Scene& scene,
-                                         const Job& job) {
+base::Result<double> CostMeter::measured(Subject& machine, const Job& job) {
   try {
-    if (!machine) machine = std::make_unique<Viewer>(scene, job.knobs);
-    if (auto before = machine->draw(job.frame - 1, job.knobs, job.camera); !before) {
+    if (auto before = machine.draw(job.frame - 1, job.knobs, job.camera); !before) {
       return tl::make_unexpected(before.error());
     }
     const double begin = ms_of_this_thread();
-    if (auto drawn = machine->draw(job.frame, job.knobs, job.camera); !drawn) {
+    if (auto drawn = machine.draw(job.frame, job.knobs, job.camera); !drawn) {
       return tl::make_unexpected(drawn.error());
     }
     return ms_of_this_thread() - begin;

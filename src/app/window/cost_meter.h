@@ -12,7 +12,7 @@
 #include <stop_token>
 #include <thread>
 
-#include "app/viewer.h"
+#include "app/subject.h"
 #include "app/window/camera.h"
 #include "app/window/cost_table.h"
 #include "scene/world.h"
@@ -22,6 +22,8 @@ namespace app {
 class CostMeter {
  public:
   explicit CostMeter(scene::Scene scene);
+  /// `machine` may be drawn by a thread of its own.
+  explicit CostMeter(std::unique_ptr<Subject> machine);
 
   /// What is on screen now, and so many milliseconds of measuring more: without calls the meter rests.
   void follow(std::int64_t frame, const scene::Knobs& knobs, const CameraOffset& camera, double grant_ms);
@@ -38,9 +40,8 @@ class CostMeter {
     scene::Knobs knobs, screen;  // to be measured; on screen when it was chosen
     CameraOffset camera;
   };
-  void run(const std::stop_token& stop, const scene::Scene& scene);
-  static base::Result<double> measured(std::unique_ptr<Viewer>& machine, const scene::Scene& scene,
-                                       const Job& job);
+  void run(const std::stop_token& stop, Subject& machine);
+  static base::Result<double> measured(Subject& machine, const Job& job);
 
   mutable std::mutex mutex_;  // guards all but the thread
   std::condition_variable_any granted_;

@@ -8,14 +8,14 @@
 #include <string>
 #include <string_view>
 
+#include "app/window/panel_frame.h"
+
 namespace app {
 namespace {
 
 const ImVec4 current_colour{0.949F, 0.639F, 0.227F, 1};
 const ImVec4 dearer_colour{1, 0.42F, 0.353F, 1};
 const ImVec4 cheaper_colour{0.478F, 0.8F, 0.498F, 1};
-// Below a tenth more or less the medians of two equal settings differ as well.
-constexpr double noise = 1.1;
 
 template <class... Values>
 void right_aligned(const ImVec4& colour, const char* pattern, Values... values) {
@@ -26,10 +26,12 @@ void right_aligned(const ImVec4& colour, const char* pattern, Values... values) 
   ImGui::TextColored(colour, "%s", text.data());
 }
 
-ImVec4 colour_of(const CostLine& line, double ratio) {
+// Only what lies outside the spread of both measurements has a colour.
+ImVec4 colour_of(const CostTable& table, const CostLine& line) {
   if (line.is_current) return current_colour;
-  if (ratio > noise) return dearer_colour;
-  return ratio * noise < 1 ? cheaper_colour : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
+  const auto order = table.against_current(line);
+  if (order > 0) return dearer_colour;
+  return order < 0 ? cheaper_colour : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled);
 }
 
 void draw_numbers(const CostTable& table, const CostLine& line) {
@@ -43,7 +45,11 @@ void draw_numbers(const CostTable& table, const CostLine& line) {
     right_aligned(line.is_current ? current_colour : ImGui::GetStyleColorVec4(ImGuiCol_Text), "%.2f", *ms);
   }
   ImGui::TableNextColumn();
-  if (ratio) right_aligned(colour_of(line, *ratio), *ratio < 9.95 ? "x %.2f" : "x %.0f", *ratio);
+  if (const auto spread = table.spread(line); spread && line.error.empty()) {
+    right_aligned(dim, "%.2f..%.2f", spread->low, spread->high);
+  }
+  ImGui::TableNextColumn();
+  if (ratio) right_aligned(colour_of(table, line), *ratio < 9.95 ? "x %.2f" : "x %.0f", *ratio);
 }
 
 void draw_line(WindowState& state, const CostTable& table, const CostLine& line) {
@@ -69,8 +75,7 @@ void draw_heading(const cost::Axis& axis) {
   ImGui::TableNextColumn();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetTextLineHeight() * 0.4F);
   ImGui::TextDisabled("%.*s", static_cast<int>(axis.name.size()), axis.name.data());
-  ImGui::TableNextColumn();
-  ImGui::TableNextColumn();
+  for (int column = 1; column < 4; ++column) ImGui::TableNextColumn();
 }
 
 void draw_summary(const CostTable& table) {
@@ -83,21 +88,20 @@ void draw_summary(const CostTable& table) {
   if (table.known() < table.all()) {
     ImGui::TextDisabled("measured %zu of %zu", table.known(), table.all());
   } else {
-    ImGui::TextDisabled("medians of the last %zu; click to use", RollingMedian::window);
+    ImGui::TextDisabled("medians and middle halves of the last %zu; in colour: beyond them",
+                        RollingMedian::window);
   }
 }
 
 }  // namespace
 
-void draw_cost_panel(WindowState& state, const CostTable& table, Rect area, float scale) {
-  ImGui::SetNextWindowPos({static_cast<float>(area.x) + 12, static_cast<float>(area.y) + 12},
-                          ImGuiCond_Appearing);
-  ImGui::SetNextWindowSize({330 * scale, static_cast<float>(area.height) - 24}, ImGuiCond_Appearing);
-  if (ImGui::Begin("Cost", &state.cost, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+void draw_cost_panel(WindowState& state, const CostTable& table, const Docked& docked, float scale) {
+  if (begin_panel(state, docked)) {
     draw_summary(table);
-    if (ImGui::BeginTable("cost", 3, ImGuiTableFlags_ScrollY)) {
+    if (ImGui::BeginTable("cost", 4, ImGuiTableFlags_ScrollY)) {
       ImGui::TableSetupColumn("setting", ImGuiTableColumnFlags_WidthStretch);
-      ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 64 * scale);
+      ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 50 * scale);
+      ImGui::TableSetupColumn("spread", ImGuiTableColumnFlags_WidthFixed, 88 * scale);
       ImGui::TableSetupColumn("ratio", ImGuiTableColumnFlags_WidthFixed, 56 * scale);
       std::string_view heading;
       for (const auto& line : table.lines()) {
@@ -109,7 +113,7 @@ void draw_cost_panel(WindowState& state, const CostTable& table, Rect area, floa
       ImGui::EndTable();
     }
   }
-  ImGui::End();
+  end_panel();
 }
 
 }  // namespace app

@@ -43,12 +43,23 @@ void RollingMedian::add(double value) {
   oldest_ = (oldest_ + 1) % window;
 }
 
-double RollingMedian::median() const {
+std::vector<double> RollingMedian::sorted() const {
   assert(!values_.empty());
   auto sorted = values_;
   std::sort(sorted.begin(), sorted.end());
-  const std::size_t middle = sorted.size() / 2;
-  return sorted.size() % 2 != 0 ? sorted[middle] : (sorted[middle - 1] + sorted[middle]) / 2;
+  return sorted;
+}
+
+double RollingMedian::median() const {
+  const auto in_order = sorted();
+  const std::size_t middle = in_order.size() / 2;
+  return in_order.size() % 2 != 0 ? in_order[middle] : (in_order[middle - 1] + in_order[middle]) / 2;
+}
+
+Spread RollingMedian::spread() const {
+  const auto in_order = sorted();
+  const std::size_t quarter = in_order.size() / 4;
+  return {in_order[quarter], in_order[in_order.size() - 1 - quarter]};
 }
 
 void CostTable::follow(const scene::Knobs& now) {
@@ -66,10 +77,33 @@ std::optional<double> CostTable::current_ms() const {
   return current_ms_.median();
 }
 
+const RollingMedian& CostTable::times(const CostLine& line) const {
+  return line.knobs == current_ ? current_ms_ : line.ms;
+}
+
 std::optional<double> CostTable::ms(const CostLine& line) const {
-  if (line.knobs == current_) return current_ms();
-  if (line.ms.count() == 0) return std::nullopt;
-  return line.ms.median();
+  if (times(line).count() == 0) return std::nullopt;
+  return times(line).median();
+}
+
+std::optional<Spread> CostTable::spread(const CostLine& line) const {
+  if (times(line).count() == 0) return std::nullopt;
+  return times(line).spread();
+}
+
+int CostTable::against_current(const CostLine& line) const {
+  constexpr std::size_t enough = 3;
+  if (line.knobs == current_ || line.ms.count() < enough || current_ms_.count() < enough) return 0;
+  const auto now = current_ms_.spread();
+  const auto other = line.ms.spread();
+  if (other.low > now.high) return 1;
+  return other.high < now.low ? -1 : 0;
+}
+
+bool CostTable::is_settled() const {
+  return std::all_of(lines_.begin(), lines_.end(), [this](const auto& line) {
+    return !line.error.empty() || times(line).count() >= RollingMedian::window;
+  });
 }
 
 std::optional<double> CostTable::ratio(const CostLine& line) const {

@@ -14,6 +14,11 @@
 
 namespace app {
 
+/// Where the middle half of some measurements lies.
+struct Spread {
+  double low = 0, high = 0;
+};
+
 /// The median of the last measurements.
 class RollingMedian {
  public:
@@ -22,8 +27,11 @@ class RollingMedian {
   [[nodiscard]] std::size_t count() const { return values_.size(); }
   /// Of an even count the mean of the two in the middle. Needs count() > 0.
   [[nodiscard]] double median() const;
+  /// From the quarter of them that is lowest to the quarter that is highest, ends included.
+  [[nodiscard]] Spread spread() const;
 
  private:
+  [[nodiscard]] std::vector<double> sorted() const;
   std::vector<double> values_;  // at most `window`
   std::size_t oldest_ = 0;      // once it is full
 };
@@ -52,6 +60,12 @@ class CostTable {
   [[nodiscard]] std::optional<double> ms(const CostLine& line) const;
   /// How many times the frame's time a line takes; nothing until both are known.
   [[nodiscard]] std::optional<double> ratio(const CostLine& line) const;
+  [[nodiscard]] std::optional<Spread> spread(const CostLine& line) const;
+  /// 1: a line takes longer than the frame as it is, -1: less long, 0: their spreads touch, or one is not
+  /// known from three measurements yet.
+  [[nodiscard]] int against_current(const CostLine& line) const;
+  /// Every line was measured as often as is remembered: more changes little while the picture stays.
+  [[nodiscard]] bool is_settled() const;
   /// Settings that were measured, or found impossible, at least once; of how many.
   [[nodiscard]] std::size_t known() const;
   [[nodiscard]] std::size_t all() const;
@@ -65,6 +79,8 @@ class CostTable {
   void fail(std::string why);
 
  private:
+  [[nodiscard]] const RollingMedian& times(const CostLine& line) const;
+
   scene::Knobs current_;
   RollingMedian current_ms_;
   std::vector<CostLine> lines_;

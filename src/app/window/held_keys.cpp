@@ -1,5 +1,7 @@
 #include "app/window/held_keys.h"
 
+#include <algorithm>
+
 namespace app {
 namespace {
 
@@ -39,6 +41,10 @@ bool HeldKeys::release(std::string_view key, double now) {
   const bool tapped = table[i].has_tap && now - *since_[i] < tap_seconds;
   since_[i].reset();
   return tapped;
+}
+
+bool HeldKeys::any() const {
+  return std::any_of(since_.begin(), since_.end(), [](const auto& since) { return since.has_value(); });
 }
 
 Motion HeldKeys::motion(double now) const {

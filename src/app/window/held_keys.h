@@ -29,6 +29,7 @@ class HeldKeys {
   /// True if this ends a tap: the key's meaning in the key table counts.
   bool release(std::string_view key, double now);
   void release_all() { since_ = {}; }
+  [[nodiscard]] bool any() const;
   [[nodiscard]] Motion motion(double now) const;
 
  private:

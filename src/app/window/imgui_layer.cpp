@@ -3,8 +3,12 @@
 #include <backends/imgui_impl_sdl.h>
 #include <imgui.h>
 
+#include <cmath>
+
 namespace app {
 namespace {
+
+constexpr float designed_pixels = 13;  // ImGui's own letters, which are crisp at whole multiples
 
 ImVec4 rgb(unsigned hex, float alpha = 1) {
   return {static_cast<float>(hex >> 16U & 255U) / 255, static_cast<float>(hex >> 8U & 255U) / 255,
@@ -17,6 +21,7 @@ void set_style() {
   auto& style = ImGui::GetStyle();
   style.WindowRounding = style.FrameRounding = style.GrabRounding = style.ScrollbarRounding = 0;
   style.WindowBorderSize = 1;
+  style.WindowMinSize = {1, 1};  // panels are as small as the window makes them
   style.WindowPadding = {12, 10};
   style.ItemSpacing = {8, 5};
   style.AntiAliasedLinesUseTex = false;
@@ -81,7 +86,7 @@ ImGuiLayer::ImGuiLayer(SDL_Window* window, SDL_Renderer* renderer) : renderer_(r
   io.BackendRendererName = "otter";
   set_style();
   ImGui_ImplSDL2_InitForSDLRenderer(window);
-  font_ = make_font_texture(renderer);
+  set_scale(1);
 }
 
 ImGuiLayer::~ImGuiLayer() {
@@ -95,10 +100,29 @@ void ImGuiLayer::renew_font() {
   font_ = make_font_texture(renderer_);
 }
 
-void ImGuiLayer::take(const SDL_Event& event) { ImGui_ImplSDL2_ProcessEvent(&event); }
+void ImGuiLayer::set_scale(float scale) {
+  const float pixels = std::round(designed_pixels * scale);
+  if (pixels == letter_pixels_) return;
+  letter_pixels_ = pixels;
+  ImFontConfig font;
+  font.SizePixels = pixels;
+  font.OversampleH = 1;
+  font.PixelSnapH = true;
+  auto* fonts = ImGui::GetIO().Fonts;
+  fonts->Clear();
+  fonts->AddFontDefault(&font);
+  renew_font();
+}
 
-void ImGuiLayer::begin(float scale) {
-  ImGui::GetIO().FontGlobalScale = scale;
+float ImGuiLayer::letter_width() { return ImGui::GetIO().Fonts->Fonts[0]->GetCharAdvance('0'); }
+
+void ImGuiLayer::take(const SDL_Event& event) {
+  const bool is_key = event.type == SDL_KEYDOWN || event.type == SDL_KEYUP;
+  if (is_key && event.key.keysym.sym == SDLK_TAB) return;
+  ImGui_ImplSDL2_ProcessEvent(&event);
+}
+
+void ImGuiLayer::begin() {
   ImGui_ImplSDL2_NewFrame();
   ImGui::NewFrame();
 }

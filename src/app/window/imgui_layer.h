@@ -16,16 +16,23 @@ class ImGuiLayer {
 
   /// Makes the texture of the letters anew: the one before is lost.
   void renew_font();
-  /// Shows the event to ImGui.
-  void take(const SDL_Event& event);
-  /// Begins a frame of widgets; `scale` enlarges letters and is a whole number, so that they stay crisp.
-  void begin(float scale);
+  /// Letters so many times as large as designed.
+  void set_scale(float scale);
+  static constexpr int designed_letter_width = 7;
+  /// Of one letter, in pixels: they are all as wide.
+  [[nodiscard]] static float letter_width();
+  /// Shows the event to ImGui, but for Tab, with which ImGui would go from field to field: it is the
+  /// window's.
+  static void take(const SDL_Event& event);
+  /// Begins a frame of widgets.
+  static void begin();
   /// Draws what was built since begin().
   void end();
 
  private:
   SDL_Renderer* renderer_;
   SDL_Texture* font_ = nullptr;
+  float letter_pixels_ = 0;
 };
 
 }  // namespace app

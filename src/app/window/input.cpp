@@ -7,7 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/viewer.h"
+#include "app/subject.h"
+#include "app/window/vram_view.h"
 
 namespace app {
 namespace {
@@ -17,6 +18,12 @@ constexpr double distances_per_second = 0.8;
 
 bool may_repeat(KeyAction action) {
   return action == KeyAction::next_frame || action == KeyAction::previous_frame;
+}
+
+// What Ctrl makes of a key: + and = share one on most keyboards, and the keypad has its own.
+std::string control_name(std::string name) {
+  if (name.starts_with("Keypad ")) name.erase(0, 7);
+  return "Ctrl " + (name == "=" ? "+" : name);
 }
 
 // -1..1, with the middle that a stick never quite returns to cut out.
@@ -37,7 +44,7 @@ void Input::take(const SDL_Event& event, double now, Rect picture, WindowState& 
       break;
     case SDL_KEYDOWN:
     case SDL_KEYUP:
-      if (!gui.WantTextInput) take_key(event.key, now, state);
+      if (!gui.WantTextInput || event.key.keysym.sym == SDLK_TAB) take_key(event.key, now, state);
       break;
     case SDL_WINDOWEVENT:
       if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) held_.release_all();
@@ -46,13 +53,16 @@ void Input::take(const SDL_Event& event, double now, Rect picture, WindowState& 
       if (!gui.WantCaptureMouse) take_press(event.button, picture, state);
       break;
     case SDL_MOUSEBUTTONUP:
+      if (event.button.button == SDL_BUTTON_LEFT && drag_ == Drag::orbit && !has_moved_) {
+        state.clicked = Point{event.button.x, event.button.y};
+      }
       drag_ = Drag::none;
       break;
     case SDL_MOUSEMOTION:
       take_drag(event.motion, picture, state);
       break;
     case SDL_MOUSEWHEEL:
-      if (!gui.WantCaptureMouse) zoom(state.camera, static_cast<double>(event.wheel.preciseY));
+      if (!gui.WantCaptureMouse) take_wheel(event.wheel, picture, state);
       break;
     case SDL_CONTROLLERDEVICEADDED:
       controllers_.emplace_back(SDL_GameControllerOpen(event.cdevice.which));
@@ -79,27 +89,36 @@ void Input::take_key(const SDL_KeyboardEvent& key, double now, WindowState& stat
     if (held_.release(name, now) && asked) handle(state, *asked);
     return;
   }
-  constexpr auto others =
-      KMOD_CTRL | KMOD_ALT | KMOD_GUI;  // the window manager's, but for the usual full screen
-  if ((key.keysym.mod & others) != 0) {
-    if ((key.keysym.mod & KMOD_ALT) != 0 && name == "Return" && key.repeat == 0)
-      handle(state, {KeyAction::fullscreen});
+  const auto held = key.keysym.mod;
+  if ((held & (KMOD_ALT | KMOD_GUI)) != 0) {  // the window manager's, but for the usual full screen
+    if ((held & KMOD_ALT) != 0 && name == "Return" && key.repeat == 0) handle(state, {KeyAction::fullscreen});
     return;
   }
-  if (held_.press(name, now)) return;
-  const auto asked = asked_by_key(name);
+  if ((held & KMOD_CTRL) != 0) {
+    if (const auto asked = asked_by_key(control_name(name))) handle(state, *asked);
+    return;
+  }
+  const auto shifted = (held & KMOD_SHIFT) != 0 ? asked_by_key("Shift " + name) : std::nullopt;
+  if (!shifted && held_.press(name, now)) return;
+  const auto asked = shifted ? shifted : asked_by_key(name);
   if (asked && (key.repeat == 0 || may_repeat(asked->action))) handle(state, *asked);
 }
 
 void Input::take_press(const SDL_MouseButtonEvent& button, Rect picture, const WindowState& state) {
+  pressed_ = {button.x, button.y};
+  has_moved_ = false;
   if (button.button == SDL_BUTTON_RIGHT) drag_ = Drag::look;
   if (button.button != SDL_BUTTON_LEFT) return;
   const int divider = picture.x + static_cast<int>(state.divider * picture.width);
-  const bool on_divider = state.split && !state.vram && std::abs(button.x - divider) <= 8;
+  const bool on_divider = state.split && !state.shows(Panel::vram) && std::abs(button.x - divider) <= 8;
   drag_ = on_divider ? Drag::divider : Drag::orbit;
 }
 
 void Input::take_drag(const SDL_MouseMotionEvent& motion, Rect picture, WindowState& state) {
+  constexpr int still = 3;  // pixels that a click may move
+  has_moved_ =
+      has_moved_ || std::abs(motion.x - pressed_.x) > still || std::abs(motion.y - pressed_.y) > still;
+  if (!has_moved_) return;
   const double across = std::max(picture.width, 1);
   const double x = motion.xrel / across;
   const double y = motion.yrel / across;
@@ -110,12 +129,21 @@ void Input::take_drag(const SDL_MouseMotionEvent& motion, Rect picture, WindowSt
       state.divider = std::clamp((motion.x - picture.x) / across, 0.02, 0.98);
       break;
     case Drag::orbit:
+      if (state.shows(Panel::vram))
+        return pan_vram(state.vram, -x, -motion.yrel / std::max<double>(picture.height, 1));
       orbit(state.camera, -4 * x, -4 * y);
       break;
     case Drag::look:
       look(state.camera, -2 * x, -2 * y);
       break;
   }
+}
+
+void Input::take_wheel(const SDL_MouseWheelEvent& wheel, Rect picture, WindowState& state) {
+  const auto steps = static_cast<double>(wheel.preciseY);
+  if (!state.shows(Panel::vram)) return zoom(state.camera, steps);
+  zoom_vram(state.vram, steps, (wheel.mouseX - picture.x) / std::max<double>(picture.width, 1),
+            (wheel.mouseY - picture.y) / std::max<double>(picture.height, 1));
 }
 
 Motion Input::controller_motion() const {
@@ -133,7 +161,9 @@ Motion Input::controller_motion() const {
   return sum;
 }
 
-void Input::move_camera(double now, double passed, const Viewer* machine, WindowState& state) const {
+bool Input::is_moving() const { return held_.any() || controller_motion().any(); }
+
+void Input::move_camera(double now, double passed, const Subject* machine, WindowState& state) const {
   const double turn = radians_per_second * passed;
   for (const Motion& motion : {held_.motion(now), controller_motion()}) {
     if (!motion.any()) continue;

@@ -10,7 +10,7 @@
 
 namespace app {
 
-class Viewer;
+class Subject;
 
 class Input {
  public:
@@ -19,16 +19,22 @@ class Input {
 
   /// Moves the camera by what was held for `passed` seconds up to `now`. `machine`
   /// may be null: no flying then.
-  void move_camera(double now, double passed, const Viewer* machine, WindowState& state) const;
+  void move_camera(double now, double passed, const Subject* machine, WindowState& state) const;
+
+  /// A key or a stick is held: the next frame will be another one without any event.
+  [[nodiscard]] bool is_moving() const;
 
  private:
   void take_key(const SDL_KeyboardEvent& key, double now, WindowState& state);
   void take_drag(const SDL_MouseMotionEvent& motion, Rect picture, WindowState& state);
+  static void take_wheel(const SDL_MouseWheelEvent& wheel, Rect picture, WindowState& state);
   void take_press(const SDL_MouseButtonEvent& button, Rect picture, const WindowState& state);
   [[nodiscard]] Motion controller_motion() const;
 
   enum class Drag { none, divider, orbit, look };
   Drag drag_ = Drag::none;
+  Point pressed_;
+  bool has_moved_ = false;  // since then: it is no click
   HeldKeys held_;
   std::vector<Owned<SDL_GameController>> controllers_;
 };

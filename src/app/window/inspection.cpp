@@ -26,6 +26,15 @@ const char* kind_word(const gpu::Primitive& p) {
   return "";
 }
 
+// The top of `image`: what stands below the picture is a legend, which the panel shows instead.
+base::Picture picture_of(base::Picture image, int height) {
+  image.height = std::min(image.height, height);
+  image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  return image;
+}
+
+}  // namespace
+
 inspect::Order order_of(scene::Visibility visibility) {
   switch (visibility) {
     case scene::Visibility::ot:
@@ -38,15 +47,6 @@ inspect::Order order_of(scene::Visibility visibility) {
   }
   return inspect::Order::list;
 }
-
-// The top of `image`: what stands below the picture is a legend, which the panel shows instead.
-base::Picture picture_of(base::Picture image, int height) {
-  image.height = std::min(image.height, height);
-  image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-  return image;
-}
-
-}  // namespace
 
 std::string describe_draw(std::size_t number, const gpu::Primitive& primitive) {
   std::string text = "draw " + std::to_string(number) + ": ";
@@ -64,8 +64,7 @@ std::string describe_draw(std::size_t number, const gpu::Primitive& primitive) {
   return text;
 }
 
-Inspection::Inspection(const Viewer& like, const scene::Knobs& knobs)
-    : machine_(std::make_unique<Viewer>(like.scene_as_given(), knobs)) {
+Inspection::Inspection(const Subject& like, const scene::Knobs& knobs) : machine_(like.another(knobs)) {
   trace_.keep_history = true;
 }
 
@@ -97,7 +96,7 @@ base::Picture Inspection::after(int count) const {
     const auto& event = trace_.history[i - 1];
     vram[event.pixel] = event.before;  // of a rejected one that is what it was
   }
-  return display::scan_out(vram, display::area_of(machine_->gpu().display()));
+  return display::scan_out(vram, machine_->area());
 }
 
 std::string Inspection::draw_text(int at) const {
@@ -108,7 +107,7 @@ std::string Inspection::draw_text(int at) const {
 
 const inspect::Report& Inspection::report() const {
   if (!report_) {
-    const auto area = display::area_of(machine_->gpu().display());
+    const auto area = machine_->area();
     report_ = inspect::inspect(trace_, {.order = order_of(knobs_.visibility),
                                         .frame = static_cast<std::uint32_t>(frame_),
                                         .picture = {area.x, area.y, area.width, area.height}});

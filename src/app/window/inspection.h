@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer.h"
+#include "app/subject.h"
 #include "app/window/window_state.h"
 #include "base/picture.h"
 #include "display/scanout.h"
@@ -21,7 +21,7 @@ namespace app {
 class Inspection {
  public:
   /// `like`: the machine whose scene is watched.
-  explicit Inspection(const Viewer& like, const scene::Knobs& knobs);
+  explicit Inspection(const Subject& like, const scene::Knobs& knobs);
 
   /// Draws the frame of `state` again if it is another one. False: it is the same.
   base::Result<bool> update(const WindowState& state);
@@ -44,7 +44,7 @@ class Inspection {
   [[nodiscard]] base::Picture map(Map map) const;
 
  private:
-  std::unique_ptr<Viewer> machine_;
+  std::unique_ptr<Subject> machine_;
   gpu::Trace trace_;
   std::vector<std::size_t> begins_;  // where in the history each draw begins
   std::vector<const scene::KnobInfo*> unwatched_;
@@ -53,6 +53,9 @@ class Inspection {
   CameraOffset camera_;
   mutable std::optional<inspect::Report> report_;
 };
+
+/// What decides between two polygons of a frame in this mode.
+inspect::Order order_of(scene::Visibility visibility);
 
 /// "draw 12: textured quad, semi-transparent, bucket 512": a drawing command for people.
 std::string describe_draw(std::size_t number, const gpu::Primitive& primitive);

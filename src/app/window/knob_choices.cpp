@@ -85,9 +85,11 @@ bool knob_matters(const scene::KnobInfo& knob, const scene::Knobs& knobs) {
   return true;
 }
 
-std::string render_command(const std::string& scene, std::int64_t frame, const scene::Knobs& knobs) {
+std::string render_command(const std::string& scene, std::int64_t frame, const scene::Knobs& knobs,
+                           const std::optional<CameraPlace>& camera) {
   std::string line = "otter render " + quoted(scene);
   if (frame != 0) line += " --frame " + std::to_string(frame);
+  if (camera) line += " --camera=" + to_text(*camera);  // with =, for it may begin with a minus
   const scene::Knobs console;
   for (const auto& knob : scene::knob_table()) {
     const auto value = knob.get(knobs);

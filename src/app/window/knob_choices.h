@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/window/camera.h"
 #include "scene/knobs.h"
 
 namespace app {
@@ -25,7 +26,8 @@ std::optional<KnobRange> knob_range(const scene::KnobInfo& knob);
 bool knob_matters(const scene::KnobInfo& knob, const scene::Knobs& knobs);
 
 /// "otter render crates --frame 120 --buckets 64 -o picture.png": what draws the
-/// same picture without the window.
-std::string render_command(const std::string& scene, std::int64_t frame, const scene::Knobs& knobs);
+/// same picture without the window. `camera`: where it was moved to.
+std::string render_command(const std::string& scene, std::int64_t frame, const scene::Knobs& knobs,
+                           const std::optional<CameraPlace>& camera = {});
 
 }  // namespace app

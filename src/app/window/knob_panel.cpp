@@ -10,6 +10,7 @@
 
 #include "app/commands/describe.h"
 #include "app/window/knob_choices.h"
+#include "app/window/panel_frame.h"
 
 namespace app {
 namespace {
@@ -68,9 +69,10 @@ void widget(scene::Knobs& knobs, const scene::KnobInfo& knob) {
   distance(knobs, knob, *range, label.c_str());
 }
 
-// A row: the name (in the accent colour when not the console's; click: back to the
-// console's), then the widget.
-void row(scene::Knobs& knobs, const scene::KnobInfo& knob, bool matters) {
+// `idle`: why the knob does nothing; empty if it does something. A row: the name (in the accent colour when
+// not the console's; click: back to the console's), then the widget.
+void row(scene::Knobs& knobs, const scene::KnobInfo& knob, const std::string& idle, bool is_disabled) {
+  const bool matters = idle.empty();
   static const scene::Knobs console;
   const auto initial = knob.get(console);
   const bool changed = knob.get(knobs) != initial;
@@ -80,27 +82,23 @@ void row(scene::Knobs& knobs, const scene::KnobInfo& knob, bool matters) {
   const std::string name(knob.name);
   changed ? ImGui::TextColored(changed_colour, "%s", name.c_str()) : ImGui::TextUnformatted(name.c_str());
   if (ImGui::IsItemHovered()) {
-    ImGui::SetTooltip("%.*s\nthe console: %s%s%s", static_cast<int>(knob.help.size()), knob.help.data(),
-                      initial.c_str(), changed ? " (click)" : "",
-                      matters ? "" : "\nchanges nothing in this mode");
+    ImGui::SetTooltip("%.*s\nthe console: %s%s%s%s", static_cast<int>(knob.help.size()), knob.help.data(),
+                      initial.c_str(), changed ? " (click)" : "", matters ? "" : "\n", idle.c_str());
     if (changed && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) knob.set(knobs, initial);
   }
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-1);
+  ImGui::BeginDisabled(is_disabled);
   widget(knobs, knob);
+  ImGui::EndDisabled();
   ImGui::PopStyleVar();
 }
 
 }  // namespace
 
-void draw_knob_panel(WindowState& state, const std::string& scene, Rect area, float scale) {
-  const float width = 300 * scale;
-  const auto right = static_cast<float>(area.x + area.width) - 12;
-  const auto top = static_cast<float>(area.y) + 12;
-  ImGui::SetNextWindowPos({right, top}, ImGuiCond_Appearing, {1, 0});
-  ImGui::SetNextWindowSize({width, std::min(static_cast<float>(area.height) - 24, 690 * scale)},
-                           ImGuiCond_Appearing);
-  if (ImGui::Begin("Knobs", &state.panel, ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoSavedSettings)) {
+void draw_knob_panel(WindowState& state, const Subject& subject, const std::string& command,
+                     const Docked& docked, float scale) {
+  if (begin_panel(state, docked)) {
     if (ImGui::Button("all as on the console")) {
       const scene::Knobs console;
       const int frame_width = state.knobs.width;
@@ -112,23 +110,27 @@ void draw_knob_panel(WindowState& state, const std::string& scene, Rect area, fl
     }
     ImGui::SameLine();
     if (ImGui::Button("copy command")) {
-      ImGui::SetClipboardText(render_command(scene, state.frame, state.knobs).c_str());
+      ImGui::SetClipboardText(command.c_str());
     }
-    if (ImGui::IsItemHovered())
-      ImGui::SetTooltip("%s", render_command(scene, state.frame, state.knobs).c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", command.c_str());
     if (ImGui::BeginTable("knobs", 2)) {
       ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 104 * scale);
       ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
       for (const auto& knob : scene::knob_table()) {
         const bool matters =
             knob_matters(knob, state.knobs) || (state.compares() && knob_matters(knob, state.other_knobs()));
-        row(state.knobs, knob, matters);
+        const auto idle = subject.why_idle(knob);
+        row(state.knobs, knob,
+            !idle.empty() ? idle
+            : matters     ? ""
+                          : "changes nothing in this mode",
+            !idle.empty());
       }
       ImGui::EndTable();
     }
     set_visibility(state, state.knobs.visibility);
   }
-  ImGui::End();
+  end_panel();
 }
 
 }  // namespace app

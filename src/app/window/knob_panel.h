@@ -3,12 +3,15 @@
 
 #include <string>
 
-#include "app/window/layout.h"
+#include "app/subject.h"
+#include "app/window/dock.h"
 #include "app/window/window_state.h"
 
 namespace app {
 
-/// Draws the panel and changes state.knobs. `scene` is what the command line would call the scene.
-void draw_knob_panel(WindowState& state, const std::string& scene, Rect area, float scale);
+/// Draws it where it is docked, and changes state.knobs. Knobs that do nothing for the subject are grey and
+/// say why. `command`: what draws the picture without a window.
+void draw_knob_panel(WindowState& state, const Subject& subject, const std::string& command,
+                     const Docked& docked, float scale);
 
 }  // namespace app

@@ -1,8 +1,15 @@
 #include "app/window/layout.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace app {
+
+double letter_scale(double dots_per_inch, double pixels_per_point, double text_size) {
+  const double by_dots = dots_per_inch >= 96 * 1.5 ? std::round(dots_per_inch / 96 * 4) / 4 : 1;
+  const double display = pixels_per_point > 1 ? pixels_per_point : by_dots;
+  return std::clamp(display, 1.0, 4.0) * text_size;
+}
 
 Rect wanted_area(int picture_width, int picture_height, int scale) {
   const bool narrow = picture_width > 400;  // half-width pixels

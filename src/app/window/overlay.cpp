@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cmath>
 
 #include "app/commands/describe.h"
 
@@ -30,39 +30,10 @@ void draw_label(const std::string& text, float x, float y, float align, ImU32 co
   list->AddText({left, y}, colour, text.c_str());
 }
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
+ImU32 colour_of(Tone tone) {
+  constexpr std::array colours{text_colour, dim_colour, accent_colour, mark_colour};
+  return colours[static_cast<std::size_t>(tone)];
 }
-
-const char* pace_name(Pace pace) {
-  switch (pace) {
-    case Pace::vsync:
-      return "vsync";
-    case Pace::hz60:
-      return "60 Hz";
-    case Pace::hz50:
-      return "50 Hz";
-  }
-  return "";
-}
-
-// Writes pieces side by side; a piece that no longer fits before `end` is left out.
-struct Line {
-  ImDrawList* list;
-  float x, y, end;
-  void add(const std::string& text, ImU32 colour) {
-    const float width = ImGui::CalcTextSize(text.c_str()).x;
-    if (x + width > end) {
-      end = x;  // nothing after the first piece left out, or the order would lie
-      return;
-    }
-    list->AddText({x, y}, colour, text.c_str());
-    x += width + 2 * ImGui::CalcTextSize(" ").x;
-  }
-};
 
 void key_cell(std::string_view text) {
   ImGui::TextColored(ImGui::ColorConvertU32ToFloat4(accent_colour), "%.*s", static_cast<int>(text.size()),
@@ -75,28 +46,24 @@ void wrapped(std::string_view text) {
 
 }  // namespace
 
-int status_height(float scale) { return static_cast<int>(13 * scale) + 10; }
+int status_height(float scale, std::size_t rows) {
+  return static_cast<int>(15 * scale) * static_cast<int>(rows) + 8;
+}
 
-void draw_status(const WindowState& state, const Status& status, Rect bar, float scale) {
+void draw_status(const std::vector<std::vector<StatusPiece>>& rows, Rect bar, float scale) {
   auto* list = ImGui::GetBackgroundDrawList();
   list->AddRectFilled(at(bar.x, bar.y), at(bar.x + bar.width, bar.y + bar.height), bar_colour);
   list->AddLine(at(bar.x, bar.y), at(bar.x + bar.width, bar.y), IM_COL32(0x3a, 0x3a, 0x4a, 255));
-  const float y = static_cast<float>(bar.y) + 5;
-  const std::string help = "F1 help";
-  const float help_x = static_cast<float>(bar.x + bar.width) - 10 - ImGui::CalcTextSize(help.c_str()).x;
-  list->AddText({help_x, y}, dim_colour, help.c_str());
-
-  Line line{list, static_cast<float>(bar.x) + 10, y, help_x - 12 * scale};
-  line.add(status.scene, accent_colour);
-  line.add(describe(state.knobs), text_colour);
-  line.add(with_commas(status.stats.primitives) + " primitives", dim_colour);
-  if (status.different) line.add(with_commas(*status.different) + " differ", mark_colour);
-  line.add(format("GTE %.2f  OT %.2f  raster %.2f ms", status.stats.gte_ms, status.stats.ot_ms,
-                  status.stats.raster_ms),
-           text_colour);
-  line.add(state.paused ? format("paused at frame %lld", static_cast<long long>(state.frame))
-                        : format("%.0f/s %s", status.frames_per_second, pace_name(state.pace)),
-           state.paused ? accent_colour : dim_colour);
+  const float letter = ImGui::CalcTextSize("0").x;
+  float y = static_cast<float>(bar.y) + 5;
+  for (const auto& row : rows) {
+    float x = static_cast<float>(bar.x) + 10;
+    for (const auto& piece : row) {
+      list->AddText({x, y}, colour_of(piece.tone), piece.text.c_str());
+      x += letter * static_cast<float>(piece.text.size() + 2);
+    }
+    y += std::floor(15 * scale);
+  }
 }
 
 void draw_captions(const WindowState& state, Rect picture, float scale) {
@@ -104,8 +71,12 @@ void draw_captions(const WindowState& state, Rect picture, float scale) {
   const auto left = static_cast<float>(picture.x) + 10 * scale;
   const auto right = static_cast<float>(picture.x + picture.width) - 10 * scale;
   if (state.split) {
-    draw_label(describe(state.knobs), left, y, 0, text_colour);
-    draw_label(describe(state.other_knobs()), right, y, 1, text_colour);
+    const auto here = describe(state.knobs);
+    const auto there = describe(state.other_knobs());
+    const float both = ImGui::CalcTextSize((here + there).c_str()).x + 40 * scale;
+    const bool has_room = static_cast<float>(picture.width) > both;  // side by side, or one below the other
+    draw_label(here, left, y, 0, text_colour);
+    draw_label(there, right, has_room ? y : y + ImGui::GetTextLineHeight() + 8, 1, text_colour);
   } else if (state.differences) {
     draw_label(describe(state.knobs) + "  against  " + describe(state.other_knobs()), left, y, 0,
                mark_colour);
@@ -159,6 +130,17 @@ void draw_help(WindowState& state, Rect area, float scale) {
     ImGui::TextDisabled("In brackets: the game controller.");
   }
   ImGui::End();
+}
+
+void draw_reason(const std::string& text, Rect picture) {
+  if (text.empty()) return;
+  const float room = std::max(static_cast<float>(picture.width) - 40, 80.0F);
+  const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, room);
+  const float x = static_cast<float>(picture.x) + (static_cast<float>(picture.width) - size.x) / 2;
+  const float y = static_cast<float>(picture.y) + (static_cast<float>(picture.height) - size.y) / 2;
+  auto* list = ImGui::GetBackgroundDrawList();
+  list->AddRectFilled({x - 10, y - 8}, {x + size.x + 10, y + size.y + 8}, box_colour);
+  list->AddText(ImGui::GetFont(), ImGui::GetFontSize(), {x, y}, text_colour, text.c_str(), nullptr, room);
 }
 
 void draw_message(const std::string& text, bool is_error, Rect area, float scale) {

@@ -1,5 +1,6 @@
 // otter run: the window.
 
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <string>
@@ -8,7 +9,11 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
-#include "app/commands/open_scene.h"
+#include "app/commands/without_depth.h"
+#include "app/source.h"
+#include "app/tape.h"
+#include "app/viewer.h"
+#include "app/window/settings.h"
 #include "app/window/window.h"
 #include "demos/demos.h"
 
@@ -16,28 +21,113 @@ namespace app {
 namespace {
 
 struct RunOptions {
-  std::string scene, pace = "vsync";
+  std::string scene, pace, camera, settings, shown;
+  RamOptions ram;
+  std::vector<std::string> panels, named_knobs;
   WindowOptions window;
 };
+
+// Of a run of so many frames nothing is remembered, and nothing is read but what is named: it is to give the
+// same picture every time.
+std::optional<std::filesystem::path> settings_file(const RunOptions& options) {
+  if (options.settings == "none") return std::nullopt;
+  if (!options.settings.empty()) return options.settings;
+  return options.window.frames ? std::nullopt : default_settings_file();
+}
+
+std::string all_panels() {
+  std::string text;
+  for (const auto name : panel_names) text.append(text.empty() ? "" : ", ").append(name);
+  return text;
+}
+
+// What was remembered, then what the command line says.
+base::Result<void> prepare(RunOptions& options) {
+  auto& window = options.window;
+  auto& first = window.first;
+  window.settings = settings_file(options);
+  const auto remembered = window.settings ? read_settings(*window.settings) : Settings{};
+  const auto asked = std::exchange(first.knobs, remembered.knobs);
+  overrule(first.knobs, asked, options.named_knobs);
+  if (!scene::check_knobs(first.knobs)) first.knobs = asked;  // what is asked for does not go with the rest
+  first.dock = remembered.dock;
+  first.text_size = remembered.text_size;
+  first.pace = remembered.pace;
+  for (std::size_t i = 0; i < pace_words.size(); ++i) {
+    if (options.pace == pace_words[i]) first.pace = static_cast<Pace>(i);
+  }
+  for (const auto& name : options.panels) {
+    const auto panel = panel_named(name);
+    if (!panel) return base::fail("--panel: expected some of " + all_panels() + ", got '" + name + "'");
+    first.dock.raise(*panel);
+  }
+  if (options.camera.empty()) return {};
+  const auto camera = parse_camera(options.camera);
+  if (!camera) return tl::make_unexpected(camera.error());
+  first.camera.from = *camera;
+  return {};
+}
+
+// A file that is shown as often as it is chosen: it is read once, and recordings share their timeline.
+base::Result<WindowScene> open_entry(const std::string& name, const RamOptions& ram, scene::Knobs knobs,
+                                     const std::string& shown) {
+  auto source = open_source(name, ram);
+  if (!source) return tl::make_unexpected(source.error());
+  if (source->scene) {
+    const auto scene = std::make_shared<scene::Scene>(std::move(*source->scene));
+    return WindowScene{name,
+                       [scene](const scene::Knobs& now) {
+                         return base::Result<std::unique_ptr<Subject>>(std::make_unique<Viewer>(*scene, now));
+                       },
+                       false};
+  }
+  if (knobs.visibility != scene::Visibility::zbuffer) knobs.visibility = scene::Visibility::ot;
+  knobs.without_depth = foreign_without_depth;
+  auto timeline = open_timeline(*source, knobs);
+  if (!timeline) return tl::make_unexpected(timeline.error());
+  (*timeline)->set_options({});  // the console; a z-buffer draws frame by frame
+  const std::shared_ptr<debug::Timeline> shared = std::move(*timeline);
+  const auto what = shown == "drawn" ? Shown::drawn : shown == "display" ? Shown::display : Shown::either;
+  return WindowScene{
+      name,
+      [name, shared, what](const scene::Knobs& /*now*/) {
+        return base::Result<std::unique_ptr<Subject>>(std::make_unique<Tape>(name, shared, what));
+      },
+      true};
+}
 
 // The demos, and before them a file if one was named; the one that was named is shown first.
 base::Result<int> run(RunOptions& options) {
   auto& window = options.window;
+  if (auto prepared = prepare(options); !prepared) return tl::make_unexpected(prepared.error());
   if (auto checked = scene::check_knobs(window.first.knobs); !checked)
     return tl::make_unexpected(checked.error());
   if (!options.scene.empty() && demos::find(options.scene) == nullptr) {
-    auto scene = open_scene(options.scene);  // now, so that a bad file opens no window
-    if (!scene) return tl::make_unexpected(scene.error());
-    const auto shared = std::make_shared<scene::Scene>(std::move(*scene));
-    window.scenes.push_back({options.scene, [shared] { return base::Result<scene::Scene>(*shared); }});
+    // Now, so that a bad file opens no window.
+    auto entry = open_entry(options.scene, options.ram, window.first.knobs, options.shown);
+    if (!entry) return tl::make_unexpected(entry.error());
+    // A remembered mode that recordings have not got must not keep one from being opened.
+    const auto& named = options.named_knobs;
+    auto& visibility = window.first.knobs.visibility;
+    const bool is_named = std::find(named.begin(), named.end(), "visibility") != named.end();
+    if (entry->is_recording && !is_named && visibility != scene::Visibility::zbuffer) {
+      visibility = scene::Visibility::ot;
+    }
+    window.scenes.push_back(std::move(*entry));
+  } else if (!options.ram.head.empty()) {
+    return base::fail("--head: expected a RAM image before it");
   }
+  window.open = [shown = options.shown, knobs = window.first.knobs](const std::string& path) {
+    return open_entry(path, {}, knobs, shown);
+  };
   for (const auto& demo : demos::all()) {
     if (demo.name == options.scene) window.first.scene = static_cast<int>(window.scenes.size());
-    window.scenes.push_back(
-        {std::string(demo.name), [&demo] { return base::Result<scene::Scene>(demos::make(demo)); }});
+    window.scenes.push_back({std::string(demo.name), [&demo](const scene::Knobs& knobs) {
+                               return base::Result<std::unique_ptr<Subject>>(
+                                   std::make_unique<Viewer>(demos::make(demo), knobs));
+                             }});
   }
   window.first.scenes = static_cast<int>(window.scenes.size());
-  window.first.pace = options.pace == "60" ? Pace::hz60 : options.pace == "50" ? Pace::hz50 : Pace::vsync;
   set_visibility(window.first, window.first.knobs.visibility);
   return run_window(window);
 }
@@ -47,18 +137,32 @@ base::Result<int> run(RunOptions& options) {
 Action add_run(Arguments arguments) {
   const auto options = std::make_shared<RunOptions>();
   auto& window = options->window;
-  arguments.positional("scene", "SCENE|FILE", options->scene,
-                       "a scene of `otter list` [the first], or an .obj or .x3d file");
-  arguments.choice("--pace", options->pace, {"vsync", "60", "50"},
-                   "frames with the screen, or at a fixed rate [vsync]");
+  arguments.positional(
+      "scene", "SCENE|FILE", options->scene,
+      "a scene of `otter list` [the first], a scene file, a GPU dump, or with --head a RAM image");
+  add_ram_options(arguments, options->ram);
+  arguments.choice("--pace", options->pace, {"vsync", "60", "50", "slow"},
+                   "frames with the screen, or at a fixed rate [as last time, at first vsync]");
   arguments.number("--scale", "1..16", window.scale, 1, 16, "screen pixels for each pixel at first [3]");
   arguments.flag("--fullscreen", window.first.fullscreen, "fill the screen");
   arguments.flag("--split", window.first.split, "begin with both pictures, side by side");
   arguments.flag("--differences", window.first.differences, "begin with differing pixels marked");
+  arguments.number("--frame", "N", window.first.frame, std::int64_t{0}, std::int64_t{1'000'000'000},
+                   "begin with frame N, the state after N/60 s [0]");
+  arguments.choice("--shown", options->shown, {"drawn", "display"},
+                   "recording: what is drawn to, or what the display shows [the latter, unless the frame "
+                   "draws beside it]");
+  arguments.flag("--paused", window.first.paused, "begin at rest");
+  arguments.text("--camera", "X,Y,Z,YAW,PITCH", options->camera,
+                 "stand there instead: world units and degrees, 0,0 looks along -z");
+  arguments.words("--panel", "NAME,...", options->panels,
+                  "begin with these panels: knobs, inspect, cost ...");
+  arguments.text("--settings", "PATH|none", options->settings,
+                 "what is remembered between runs [~/.config/otter/window.json; none with --frames]");
   arguments.number("--frames", "N", window.frames, 1, 1'000'000'000, "quit after N frames");
   arguments.text("--screenshot", "FILE", window.screenshot,
                  "with --frames: write the window's last frame there");
-  arguments.knobs(window.first.knobs);
+  arguments.knobs(window.first.knobs, {}, &options->named_knobs);
   arguments.footer([] { return key_help(); });
   return [options] { return run(*options); };
 }

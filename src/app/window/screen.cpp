@@ -27,4 +27,17 @@ void Screen::draw(SDL_Renderer* renderer, Rect place, double from, double to) co
   SDL_RenderSetClipRect(renderer, nullptr);
 }
 
+void Screen::draw_part(SDL_Renderer* renderer, Rect place, double x, double y, double width,
+                       double height) const {
+  if (is_empty()) return;
+  const SDL_Rect clip{place.x, place.y, place.width, place.height};
+  const auto across = static_cast<float>(place.width / width),
+             down = static_cast<float>(place.height / height);
+  const SDL_FRect target{static_cast<float>(place.x) - static_cast<float>(x) * across,
+                         static_cast<float>(place.y) - static_cast<float>(y) * down, across, down};
+  SDL_RenderSetClipRect(renderer, &clip);
+  SDL_RenderCopyF(renderer, texture_.get(), nullptr, &target);
+  SDL_RenderSetClipRect(renderer, nullptr);
+}
+
 }  // namespace app

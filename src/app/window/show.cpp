@@ -30,11 +30,11 @@ void follow(scene::FrameStats& shown, const scene::FrameStats& measured) {
 base::Result<void> Show::change_scene(const WindowState& state) {
   const auto& entry = scenes_[static_cast<std::size_t>(state.scene)];
   scene_ = state.scene;  // also when it fails: it would fail again
-  auto scene = entry.make();
-  if (!scene) return tl::make_unexpected(scene.error());
+  auto subject = entry.make(state.knobs);
+  if (!subject) return tl::make_unexpected(subject.error());
   name_ = entry.name;
   other_.reset();
-  shown_ = std::make_unique<Viewer>(std::move(*scene), state.knobs);
+  shown_ = std::move(*subject);
   for (const auto& line : shown_->report()) base::warn("otter: " + name_, line);
   stats_ = {};
   return {};
@@ -58,7 +58,7 @@ base::Result<bool> Show::update(const WindowState& state) {
     other_.reset();
     return true;
   }
-  if (!other_) other_ = std::make_unique<Viewer>(shown_->scene_as_given(), asked.other);
+  if (!other_) other_ = shown_->another(asked.other);
   if (auto drawn = other_->draw(state.frame, asked.other, state.camera); !drawn) {
     return tl::make_unexpected(drawn.error());
   }

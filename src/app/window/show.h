@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "app/viewer.h"
+#include "app/subject.h"
 #include "app/window/window.h"
 
 namespace app {
@@ -25,9 +25,11 @@ class Show {
   [[nodiscard]] const scene::FrameStats& stats() const { return stats_; }
   [[nodiscard]] std::optional<std::uint64_t> different() const { return different_; }
   /// The machine whose picture is left(); nullptr before the first update.
-  [[nodiscard]] const Viewer* machine() const { return shown_.get(); }
+  [[nodiscard]] Subject* machine() const { return shown_.get(); }
   /// What loading the scene had to say, once per scene.
   [[nodiscard]] const std::string& scene_name() const { return name_; }
+  /// Index of what machine() is; -1: nothing yet.
+  [[nodiscard]] int scene() const { return scene_; }
 
  private:
   struct Asked {  // everything a picture depends on
@@ -45,7 +47,7 @@ class Show {
   Asked drawn_;
   int scene_ = -1;
   std::string name_;
-  std::unique_ptr<Viewer> shown_, other_;  // the other one only while two pictures are compared
+  std::unique_ptr<Subject> shown_, other_;  // the other one only while two pictures are compared
   base::Picture left_, right_;
   scene::FrameStats stats_;
   std::optional<std::uint64_t> different_;

@@ -1,9 +1,11 @@
 #include "app/window/window.h"
 
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,15 +17,26 @@
 #include "app/window/input.h"
 #include "app/window/inspect_panel.h"
 #include "app/window/inspection.h"
+#include "app/window/knob_choices.h"
 #include "app/window/knob_panel.h"
 #include "app/window/layout.h"
+#include "app/window/lens.h"
 #include "app/window/overlay.h"
+#include "app/window/panel_frame.h"
 #include "app/window/screen.h"
 #include "app/window/sdl.h"
+#include "app/window/selection.h"
+#include "app/window/settings.h"
 #include "app/window/show.h"
+#include "app/window/status.h"
+#include "app/window/table_panel.h"
+#include "app/window/timeline_bar.h"
+#include "app/window/vram_panel.h"
 #include "app/window/vram_view.h"
+#include "debug/accesses.h"
 #include "display/png.h"
 #include "display/scanout.h"
+#include "dump/dump_file.h"
 
 namespace app {
 namespace {
@@ -37,38 +50,80 @@ double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
+// Widgets need some frames until they stand where they belong.
+constexpr int settling = 3;
+
 // For pictures in a window on the first screen, its frame and status line taken off.
 Rect screen_room() {
   SDL_Rect usable{};
   if (SDL_GetDisplayUsableBounds(0, &usable) != 0) return {0, 0, 1 << 15, 1 << 15};
   constexpr int title_bar = 40;  // of what is not there yet nobody knows the height
-  return {0, 0, usable.w, usable.h - title_bar - status_height(1)};
+  return {0, 0, usable.w, usable.h - title_bar - status_height(1, 1)};
+}
+
+// What a display asks letters to be, before what the user asks.
+double dots_per_inch(SDL_Window* window) {
+  float dots = 0;
+  const int display = std::max(SDL_GetWindowDisplayIndex(window), 0);
+  return SDL_GetDisplayDPI(display, nullptr, &dots, nullptr) == 0 ? double{dots} : 96;
+}
+
+// "otter-crates-12.png" in the current folder, or the first such name that is not taken.
+std::filesystem::path free_name(const std::string& scene, std::int64_t frame, const std::string& what,
+                                const std::string& extension = ".png") {
+  const auto stem =
+      "otter-" + std::filesystem::path(scene).stem().string() + "-" + std::to_string(frame) + what;
+  std::filesystem::path path = stem + extension;
+  std::error_code ignored;
+  for (int n = 2; std::filesystem::exists(path, ignored); ++n) {
+    path = stem + "-" + std::to_string(n) + extension;
+  }
+  return path;
 }
 
 class Window {
  public:
   explicit Window(const WindowOptions& options)
-      : options_(options), state_(options.first), show_(options.scenes) {}
+      : options_(options), state_(options.first), scenes_(options.scenes), show_(scenes_) {}
 
   base::Result<int> run();
 
  private:
   base::Result<void> open();
-  void take_events();
+  bool take_events();
   void renew_textures();
   void update();
+  void show_vram();
+  void follow_recording();
   void inspect();
+  void look_closely();
+  void resolve_click();
   void measure();
+  void open_file(const std::string& path);
+  void export_changes();
+  [[nodiscard]] bool looks_closely() const;
+  [[nodiscard]] double pulse();
+  [[nodiscard]] VramMapping picture_mapping() const;
+  void draw_marks();
   void draw();
   void draw_pictures();
+  void draw_panels();
+  void draw_menus();
   void follow_state();
-  void take_screenshot();
+  void lay_out_window();
+  [[nodiscard]] base::Picture shown_picture() const;
+  void save_picture();
+  void save_window();
+  void told_saved(const base::Result<void>& written, const std::filesystem::path& path);
   base::Result<void> write_window(const std::filesystem::path& path);
+  [[nodiscard]] bool is_at_rest() const;
   void wait_for_next();
   void say(std::string text, bool is_error);
+  [[nodiscard]] bool is_inspecting() const { return state_.shows(Panel::inspect); }
 
   const WindowOptions& options_;
   WindowState state_;
+  std::vector<WindowScene> scenes_;  // those of the options, and files that were dropped
   SdlSession sdl_;
   Owned<SDL_Window> window_;
   Owned<SDL_Renderer> renderer_;
@@ -79,10 +134,27 @@ class Window {
   int inspected_scene_ = -1;
   std::pair<Map, int> inspected_{Map::none, -1};  // what it last showed
   std::unique_ptr<CostMeter> meter_;              // likewise
-  int metered_scene_ = -1;
+  std::pair<int, std::int64_t> metered_{-1, -1};  // scene, and of recordings the frame
+  bool is_measuring_ = false;
+  Lens lens_;
+  std::optional<std::size_t> pulsing_;  // the selection that pulses, from when on
+  double pulse_begin_ = -1e9;
+  std::optional<std::int64_t> first_different_;
+
   Screen left_, right_, vram_;
-  Rect area_, picture_;  // for pictures; where the picture is
-  float scale_ = 1;      // of letters
+  std::pair<display::VramFormat, display::Palette> vram_asked_;  // what vram_ shows, and of what
+  std::vector<std::uint16_t> vram_pixels_;
+  std::vector<debug::Access> accesses_;
+  bool has_accesses_ = false;  // of the frame that the lens has
+  Rect area_, picture_;        // above the status line; where the picture is
+  DockLayout layout_;
+  Rect bar_;  // of the frames of a recording
+  bool is_indexing_ = true;
+  int shown_scene_ = -1;
+  std::optional<std::size_t> lens_shown_;
+  std::vector<std::vector<StatusPiece>> status_;
+  float scale_ = 1;  // of letters
+  int redraws_ = 0;  // the window is drawn so many times more though nothing happens
   bool is_fullscreen_ = false, is_minimised_ = false;
   Pace pace_ = Pace::vsync;
   std::string title_, message_;
@@ -97,8 +169,14 @@ base::Result<void> Window::open() {
   const auto failed = [] { return base::fail(std::string("no window could be opened: ") + SDL_GetError()); };
   const auto size =
       wanted_area_within(state_.knobs.width, state_.knobs.height, options_.scale, screen_room());
+  Status first;
+  first.scene =
+      std::filesystem::path(scenes_[static_cast<std::size_t>(state_.scene)].name).filename().string();
+  const int columns = (size.width - 20) / ImGuiLayer::designed_letter_width;
+  const auto rows = status_rows(status_pieces(state_, first), columns).size();
   window_.reset(SDL_CreateWindow("Otter", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, size.width,
-                                 size.height + status_height(1), SDL_WINDOW_RESIZABLE));
+                                 size.height + status_height(1, rows),
+                                 SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI));
   if (!window_) return failed();
   SDL_SetWindowMinimumSize(window_.get(), 320, 240);
   renderer_.reset(SDL_CreateRenderer(window_.get(), -1, SDL_RENDERER_PRESENTVSYNC));
@@ -112,21 +190,40 @@ void Window::say(std::string text, bool is_error) {
   message_ = std::move(text);
   message_is_error_ = is_error;
   message_until_ = seconds_since(begin_) + 4;
+  redraws_ = settling;
 }
 
-void Window::take_events() {
+// True: something happened.
+bool Window::take_events() {
   SDL_Event event;
+  bool is_any = false;
   while (SDL_PollEvent(&event) != 0) {
-    gui_->take(event);
+    is_any = true;
+    ImGuiLayer::take(event);
     if (event.type == SDL_WINDOWEVENT) {
       if (event.window.event == SDL_WINDOWEVENT_MINIMIZED) is_minimised_ = true;
       if (event.window.event == SDL_WINDOWEVENT_RESTORED || event.window.event == SDL_WINDOWEVENT_EXPOSED) {
         is_minimised_ = false;
       }
     }
+    if (event.type == SDL_DROPFILE && event.drop.file != nullptr) {
+      open_file(event.drop.file);
+      SDL_free(event.drop.file);
+    }
     if (event.type == SDL_RENDER_DEVICE_RESET || event.type == SDL_RENDER_TARGETS_RESET) renew_textures();
     input_.take(event, seconds_since(begin_), picture_, state_);
   }
+  return is_any;
+}
+
+// As a scene of its own, behind the others, and shown.
+void Window::open_file(const std::string& path) {
+  if (!options_.open) return;
+  auto opened = options_.open(path);
+  if (!opened) return say(opened.error().text, true);
+  scenes_.push_back(std::move(*opened));
+  state_.scenes = static_cast<int>(scenes_.size());
+  handle(state_, {KeyAction::select_scene, state_.scenes - 1});
 }
 
 // The graphics driver has lost what it was given; a scene at rest would not bring it again.
@@ -135,7 +232,7 @@ void Window::renew_textures() {
   left_ = {};
   right_ = {};
   vram_ = {};
-  left_.show(renderer_.get(), show_.left());
+  left_.show(renderer_.get(), shown_picture());
   if (state_.compares()) right_.show(renderer_.get(), show_.right());
   inspected_ = {Map::none, -1};
 }
@@ -147,28 +244,152 @@ void Window::update() {
   frame_seconds_ += (passed - frame_seconds_) * 0.05;
   let_pass(state_, passed);
   input_.move_camera(now, std::min(passed, 0.1), show_.machine(), state_);
+  follow_recording();
   const auto updated = show_.update(state_);
   if (!updated) {
-    say(updated.error().text, true);
+    if (message_ != updated.error().text) say(updated.error().text, true);
     return;
   }
   if (*updated) {
+    vram_ = {};
+    if (shown_scene_ != state_.scene) {
+      shown_scene_ = state_.scene;
+      is_indexing_ = true;
+      first_different_.reset();
+    }
+    redraws_ = settling;
     left_.show(renderer_.get(), show_.left());
     if (state_.compares()) right_.show(renderer_.get(), show_.right());
     if (message_is_error_) message_.clear();
   }
+  follow_recording();
+  look_closely();
+  state_.clicked.reset();  // a click that nobody wanted
   inspect();
   measure();
-  if (state_.vram && show_.machine() != nullptr) {
-    vram_.show(renderer_.get(), display::scan_out_all(show_.machine()->gpu().vram().pixels()));
+  show_vram();
+}
+
+// VRAM as a picture, made anew when it or the way it is read has changed.
+void Window::show_vram() {
+  if (!state_.shows(Panel::vram) || show_.machine() == nullptr) {
+    vram_ = {};
+    return;
   }
+  const std::pair asked(state_.vram.format, state_.vram.palette);
+  if (!vram_.is_empty() && asked == vram_asked_) return;
+  vram_asked_ = asked;
+  const bool is_lens = looks_closely() && lens_.view() != nullptr;
+  vram_pixels_ = is_lens ? lens_.vram(state_) : show_.machine()->vram();
+  vram_.show(renderer_.get(), display::vram_picture(vram_pixels_, asked.first, asked.second));
+  redraws_ = settling;
+}
+
+// A recording has so many frames, more of which become known while it is shown.
+void Window::follow_recording() {
+  auto* subject = show_.machine();
+  if (subject == nullptr || show_.scene() != state_.scene) return;
+  const auto last = subject->last_frame();
+  state_.recorded.last = last.value_or(0);
+  if (!last) return;
+  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, *last);
+  constexpr double indexing_ms_per_frame = 8;
+  if (is_indexing_) is_indexing_ = subject->index_some(indexing_ms_per_frame);
+  if (show_.different().value_or(0) != 0) {
+    first_different_ = std::min(first_different_.value_or(state_.frame), state_.frame);
+  }
+}
+
+bool Window::looks_closely() const {
+  const auto& lens = state_.lens;
+  if (is_inspecting() && state_.paused && (lens.selected || state_.clicked)) return true;
+  return state_.shows(Panel::table) || state_.shows(Panel::vram) || lens.shown || !lens.edits.is_empty() ||
+         lens.step;
+}
+
+// Takes the frame apart, as far as anybody looks.
+void Window::look_closely() {
+  auto* subject = show_.machine();
+  if (subject == nullptr || show_.scene() != state_.scene) return;
+  if (!looks_closely()) return;
+  const auto updated = lens_.update(state_, *subject);
+  if (!updated) return say(updated.error().text, true);
+  if (state_.lens.step) take_step(state_, lens_, *std::exchange(state_.lens.step, std::nullopt));
+  resolve_click();
+  if (state_.lens.filter.only_wrong && lens_.view() != nullptr) lens_.report();
+  const bool is_changed = *updated || state_.lens.shown != lens_shown_;
+  lens_shown_ = state_.lens.shown;
+  if (!is_changed) return;
+  redraws_ = settling;
+  if (*updated) has_accesses_ = false;
+  if (!inspection_) left_.show(renderer_.get(), shown_picture());
+  vram_ = {};
+}
+
+// A click on the picture, or on VRAM, selects the command that is seen there.
+void Window::resolve_click() {
+  if (!state_.clicked || lens_.view() == nullptr) return;
+  const auto at = *std::exchange(state_.clicked, std::nullopt);
+  const auto mapping = picture_mapping();
+  const double across = (at.x - mapping.place.x + 0.5) / std::max(mapping.place.width, 1);
+  const double down = (at.y - mapping.place.y + 0.5) / std::max(mapping.place.height, 1);
+  if (across < 0 || across >= 1 || down < 0 || down >= 1) return;
+  const auto x = static_cast<std::uint32_t>(mapping.x + across * mapping.width) % gpu::Vram::width;
+  const auto y = static_cast<std::uint32_t>(mapping.y + down * mapping.height) % gpu::Vram::height;
+  pick(state_.lens, *lens_.view(), y * gpu::Vram::width + x);
+}
+
+// What of VRAM the picture shows.
+VramMapping Window::picture_mapping() const {
+  if (state_.shows(Panel::vram)) return vram_mapping(state_.vram, picture_);
+  const auto& area = lens_.area();
+  return {picture_, double(area.x), double(area.y), double(std::max(area.width, 1)),
+          double(std::max(area.height, 1))};
+}
+
+// A new selection pulses for a while; then the window may rest.
+double Window::pulse() {
+  constexpr double seconds = 1.5;
+  const double now = seconds_since(begin_);
+  if (state_.lens.selected != pulsing_) {
+    pulsing_ = state_.lens.selected;
+    pulse_begin_ = now;
+  }
+  const double since = now - pulse_begin_;
+  if (since > seconds || !pulsing_) return 0;
+  redraws_ = std::max(redraws_, 2);
+  return 0.5 - 0.5 * std::cos(since * 4 * 2 * 3.14159265 / seconds);
+}
+
+void Window::draw_marks() {
+  auto* view = lens_.view();
+  if (view == nullptr || !looks_closely()) return;
+  const auto mapping = picture_mapping();
+  if (state_.lens.selected) {
+    if (const auto row = view->row_of_item(*state_.lens.selected)) {
+      draw_selection(*view, view->rows()[*row], mapping, picture_, pulse());
+      if (state_.shows(Panel::vram)) draw_sources(*view, view->rows()[*row], mapping, picture_);
+    }
+  }
+  if (state_.lens.pinned) draw_pin(*state_.lens.pinned, mapping, picture_);
+}
+
+void Window::export_changes() {
+  const auto path = std::filesystem::path(free_name(show_.scene_name(), state_.frame, "-changed", ".psxgpu"));
+  const auto written = dump::write_dump(path, dump::DumpFormat::standard, [&](dump::DumpWriter& writer) {
+    debug::write_clip(lens_.view()->edited(), writer);
+    return base::Result<void>{};
+  });
+  told_saved(written, path);
 }
 
 // Watches the frame while the inspector is open, and shows what it asks for in place of the left picture.
 void Window::inspect() {
-  if (!state_.inspect || show_.machine() == nullptr) {
-    if (inspection_ && !show_.left().pixels.empty()) left_.show(renderer_.get(), show_.left());
-    inspection_.reset();
+  if (!is_inspecting() || show_.machine() == nullptr) {
+    if (inspection_ && !show_.left().pixels.empty()) {
+      inspection_.reset();
+      left_.show(renderer_.get(), shown_picture());
+    }
     return;
   }
   if (!inspection_ || inspected_scene_ != state_.scene) {
@@ -179,27 +400,38 @@ void Window::inspect() {
   if (!drawn) return say(drawn.error().text, true);
   const std::pair asked(inspection_->unwatched().empty() ? state_.map : Map::none, state_.first_draws);
   if (!*drawn && asked == inspected_ && asked.first != Map::none) return;  // a map takes a while
+  if (*drawn || asked != inspected_) redraws_ = settling;
   inspected_ = asked;
-  if (asked.first != Map::none) {
-    left_.show(renderer_.get(), inspection_->map(asked.first));
-  } else {
-    left_.show(renderer_.get(),
-               state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws));
+  left_.show(renderer_.get(), shown_picture());
+}
+
+// What stands at the left, or alone, a pixel for each of the console's.
+base::Picture Window::shown_picture() const {
+  const bool is_map = inspection_ && state_.map != Map::none;
+  if (!is_map && looks_closely()) {
+    if (auto picture = lens_.picture(state_)) return *std::move(picture);
   }
+  if (!inspection_ || !inspection_->unwatched().empty()) return show_.left();
+  if (state_.map != Map::none) return inspection_->map(state_.map);
+  return state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws);
 }
 
 // Grants the cost panel its share of this frame. A meter that is no longer wanted goes when its last drawing
 // is done: waiting for it would show.
 void Window::measure() {
-  const bool wanted = state_.cost && show_.machine() != nullptr;
-  if (meter_ && (!wanted || metered_scene_ != state_.scene)) meter_->stop();
+  const bool wanted = state_.shows(Panel::cost) && show_.machine() != nullptr;
+  is_measuring_ = false;
+  if (wanted && show_.machine()->is_recording() && !state_.paused) return;  // a frame is measured at rest
+  const std::pair now(state_.scene, wanted && show_.machine()->is_recording() ? state_.frame : 0);
+  if (meter_ && (!wanted || metered_ != now)) meter_->stop();
   if (meter_ && meter_->has_ended()) meter_.reset();
   if (!wanted) return;
   if (!meter_) {
-    meter_ = std::make_unique<CostMeter>(show_.machine()->scene_as_given());
-    metered_scene_ = state_.scene;
+    meter_ = std::make_unique<CostMeter>(show_.machine()->apart(state_.frame, state_.knobs));
+    metered_ = now;
   }
-  meter_->follow(state_.frame, state_.knobs, state_.camera, measuring_ms_per_frame);
+  is_measuring_ = !state_.paused || !meter_->table().is_settled();
+  meter_->follow(state_.frame, state_.knobs, state_.camera, is_measuring_ ? measuring_ms_per_frame : 0);
 }
 
 void Window::follow_state() {
@@ -212,25 +444,45 @@ void Window::follow_state() {
     SDL_RenderSetVSync(renderer_.get(), pace_ == Pace::vsync ? 1 : 0);
     due_ = Clock::now();
   }
-  auto title = "Otter: " + show_.scene_name();
+  auto title = window_title(state_, show_.scene_name());
   if (title != title_) SDL_SetWindowTitle(window_.get(), title.c_str());
   title_ = std::move(title);
 
+  lay_out_window();
+}
+
+// Letters, status line, columns of panels, and in what they leave the picture.
+void Window::lay_out_window() {
   int width = 0;
   int height = 0;
+  int points = 0;
   SDL_GetRendererOutputSize(renderer_.get(), &width, &height);
-  scale_ = static_cast<float>(std::max(1, std::min(width / 900, height / 700)));
-  area_ = {0, 0, width, std::max(height - status_height(scale_), 1)};
-  if (state_.vram) {
-    picture_ = place_vram(area_);
+  SDL_GetWindowSize(window_.get(), &points, nullptr);
+  const double pixels_per_point = static_cast<double>(width) / std::max(points, 1);
+  scale_ = static_cast<float>(letter_scale(dots_per_inch(window_.get()), pixels_per_point, state_.text_size));
+  gui_->set_scale(scale_);
+  const Status status{std::filesystem::path(show_.scene_name()).filename().string(), show_.stats(),
+                      1 / std::max(frame_seconds_, 1e-4), show_.different()};
+  const auto columns = static_cast<int>((static_cast<float>(width) - 20) / ImGuiLayer::letter_width());
+  status_ = status_rows(status_pieces(state_, status), columns);
+  area_ = {0, 0, width, std::max(height - status_height(scale_, status_.size()), 1)};
+  layout_ = lay_out(state_.dock, area_, double{scale_});
+  bar_ = layout_.picture;
+  bar_.height = std::min(timeline_height(state_, scale_), bar_.height / 2);
+  layout_.picture.height -= bar_.height;
+  bar_.y += layout_.picture.height;
+  if (state_.shows(Panel::vram)) {
+    picture_ = place_vram(layout_.picture);
   } else {
-    picture_ = left_.is_empty() ? area_ : place(left_.width(), left_.height(), area_);
+    picture_ = left_.is_empty() ? layout_.picture : place(left_.width(), left_.height(), layout_.picture);
   }
 }
 
 void Window::draw_pictures() {
-  if (state_.vram) {
-    vram_.draw(renderer_.get(), picture_);
+  if (state_.shows(Panel::vram)) {
+    const auto& part = state_.vram;
+    vram_.draw_part(renderer_.get(), picture_, part.x / display::vram_width, part.y / display::vram_height,
+                    1 / part.zoom, 1 / part.zoom);
   } else if (state_.split) {
     left_.draw(renderer_.get(), picture_, 0, state_.divider);
     right_.draw(renderer_.get(), picture_, state_.divider, 1);
@@ -239,31 +491,78 @@ void Window::draw_pictures() {
   }
 }
 
+// Each where it is docked.
+void Window::draw_panels() {
+  const auto* machine = show_.machine();
+  if (machine == nullptr) return;
+  const bool is_moved = state_.camera != CameraOffset{};
+  const auto command = render_command(show_.scene_name(), state_.frame, state_.knobs,
+                                      is_moved ? std::optional(machine->place(state_.camera)) : std::nullopt);
+  for (const auto& docked : layout_.panels) {
+    switch (docked.panel) {
+      case Panel::knobs:
+        draw_knob_panel(state_, *machine, command, docked, scale_);
+        break;
+      case Panel::inspect:
+        if (inspection_) draw_inspect_panel(state_, *inspection_, docked, scale_);
+        break;
+      case Panel::cost:
+        if (meter_ && metered_.first == state_.scene) {
+          draw_cost_panel(state_, meter_->table(), docked, scale_);
+        }
+        break;
+      case Panel::table:
+        if (draw_table_panel(state_, lens_, docked, scale_).exports) export_changes();
+        break;
+      case Panel::vram:
+        if (lens_.view() != nullptr && !std::exchange(has_accesses_, true)) {
+          accesses_ = debug::accesses_of(*lens_.view());
+        }
+        if (draw_vram_panel(state_, lens_.view(), accesses_, docked, scale_)) state_.save_picture = true;
+        break;
+    }
+  }
+  draw_edges(state_, layout_, area_, scale_);
+}
+
+// Which of ImGui's menus is open only it knows, inside of a frame.
+void Window::draw_menus() {
+  if (std::exchange(state_.close_menu, false)) ImGui::ClosePopupToLevel(0, true);
+  state_.menu = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
 void Window::draw() {
   SDL_SetRenderDrawColor(renderer_.get(), 0x0b, 0x0b, 0x10, 0xff);
   SDL_RenderClear(renderer_.get());
   draw_pictures();
-  gui_->begin(scale_);
-  if (state_.vram && show_.machine() != nullptr) {
-    draw_vram_marks(show_.machine()->gpu(), picture_, scale_);
+  ImGuiLayer::begin();
+  const bool shows_vram = state_.shows(Panel::vram);
+  if (shows_vram && show_.machine() != nullptr) {
+    if (!vram_pixels_.empty()) {
+      draw_vram_marks(show_.machine()->gpu(), vram_pixels_, picture_mapping(), state_.vram.grid, scale_);
+    }
   } else {
     if (state_.split) draw_divider(state_, picture_);
     draw_captions(state_, picture_, scale_);
+    if (show_.machine() != nullptr) draw_reason(show_.machine()->why_empty(), picture_);
+  }
+  draw_marks();
+  draw_panels();
+  if (show_.machine() != nullptr && state_.recorded.last != 0) {
+    const auto* view = looks_closely() ? lens_.view() : nullptr;
+    draw_timeline(state_,
+                  {show_.machine()->progress(), first_different_, view != nullptr ? view->rows().size() : 0},
+                  bar_, scale_);
+  }
+  if (inspection_ && !shows_vram && state_.paused && inspection_->unwatched().empty()) {
+    draw_history(*inspection_, picture_, left_.width(), left_.height());
   }
   if (state_.help) draw_help(state_, area_, scale_);
-  if (inspection_ && !state_.vram) {
-    draw_inspect_panel(state_, *inspection_, picture_, left_.width(), left_.height(), area_, scale_);
-  }
-  if (meter_ && state_.cost && metered_scene_ == state_.scene) {
-    draw_cost_panel(state_, meter_->table(), area_, scale_);
-  }
-  if (state_.panel) draw_knob_panel(state_, show_.scene_name(), area_, scale_);
+  draw_menus();
   if (seconds_since(begin_) < message_until_ || message_is_error_) {
-    draw_message(message_, message_is_error_, area_, scale_);
+    draw_message(message_, message_is_error_, layout_.picture, scale_);
   }
-  const Status status{show_.scene_name(), show_.stats(), 1 / std::max(frame_seconds_, 1e-4),
-                      show_.different()};
-  draw_status(state_, status, {0, area_.height, area_.width, status_height(scale_)}, scale_);
+  draw_status(status_, {0, area_.height, area_.width, status_height(scale_, status_.size())}, scale_);
   gui_->end();
 }
 
@@ -280,22 +579,50 @@ base::Result<void> Window::write_window(const std::filesystem::path& path) {
   return display::write_png(path, picture);
 }
 
-// Into the current folder, under a name that is not taken yet.
-void Window::take_screenshot() {
-  const auto stem = "otter-" + std::filesystem::path(show_.scene_name()).stem().string() + "-" +
-                    std::to_string(state_.frame);
-  std::filesystem::path path = stem + ".png";
-  std::error_code ignored;
-  for (int n = 2; std::filesystem::exists(path, ignored); ++n) path = stem + "-" + std::to_string(n) + ".png";
-  const auto written = write_window(path);
+void Window::told_saved(const base::Result<void>& written, const std::filesystem::path& path) {
   if (!written) return say(written.error().text, true);
+  std::error_code ignored;
   say("saved " + std::filesystem::absolute(path, ignored).string(), false);
+}
+
+// Pixel for pixel, without a word on it.
+void Window::save_picture() {
+  const auto* machine = show_.machine();
+  if (machine == nullptr) return;
+  const bool is_vram = state_.shows(Panel::vram);
+  const auto path = free_name(show_.scene_name(), state_.frame, is_vram ? "-vram" : "");
+  const auto picture = is_vram && !vram_pixels_.empty()
+                           ? display::vram_picture(vram_pixels_, state_.vram.format, state_.vram.palette)
+                           : shown_picture();
+  told_saved(display::write_png(path, picture), path);
+}
+
+void Window::save_window() {
+  const auto path = free_name(show_.scene_name(), state_.frame, "-window");
+  told_saved(write_window(path), path);
+}
+
+// At rest nothing changes on the screen until something happens outside.
+bool Window::is_at_rest() const {
+  const bool is_busy = is_measuring_ || input_.is_moving() || (is_indexing_ && state_.recorded.last != 0);
+  return state_.paused && redraws_ == 0 && !is_busy && !options_.frames;
 }
 
 // A fixed pace sleeps until its next frame is due. With vsync SDL has waited already, unless the driver does
 // not: then 250 frames a second are enough.
 void Window::wait_for_next() {
   using std::chrono::duration;
+  if (is_at_rest()) {
+    const double message = message_is_error_ ? 0 : message_until_ - seconds_since(begin_);
+    constexpr int long_ms = 1000;
+    const bool is_typing = ImGui::GetIO().WantTextInput;  // its cursor blinks
+    SDL_WaitEventTimeout(nullptr, message > 0 ? static_cast<int>(message * 1000) + 1
+                                  : is_typing ? long_ms / 5
+                                              : long_ms);
+    if (message > 0 || is_typing) redraws_ = 1;
+    due_ = Clock::now();
+    return;
+  }
   const double period = pace_ == Pace::hz60 ? 1.0 / 60 : pace_ == Pace::hz50 ? 1.0 / 50 : 1.0 / 250;
   due_ += std::chrono::duration_cast<Clock::duration>(duration<double>(period));
   const double early = -seconds_since(due_);
@@ -310,8 +637,9 @@ base::Result<int> Window::run() {
   if (state_.compares()) right_.show(renderer_.get(), show_.right());
   last_ = seconds_since(begin_);
   due_ = Clock::now();
+  redraws_ = settling;
   for (int drawn = 0; !state_.quit; ++drawn) {
-    take_events();
+    if (take_events()) redraws_ = settling;
     if (is_minimised_) {
       SDL_WaitEventTimeout(nullptr, 100);
       last_ = seconds_since(begin_);
@@ -319,16 +647,25 @@ base::Result<int> Window::run() {
     }
     update();
     follow_state();
+    if (is_at_rest()) {
+      wait_for_next();
+      continue;
+    }
     draw();
+    if (redraws_ > 0) --redraws_;
     const bool is_last = options_.frames && drawn + 1 >= *options_.frames;
     if (is_last && !options_.screenshot.empty()) {
       if (auto written = write_window(options_.screenshot); !written)
         return tl::make_unexpected(written.error());
     }
-    if (std::exchange(state_.screenshot, false)) take_screenshot();
+    if (std::exchange(state_.save_window, false)) save_window();
+    if (std::exchange(state_.save_picture, false)) save_picture();
     SDL_RenderPresent(renderer_.get());
     if (is_last) break;
     wait_for_next();
+  }
+  if (options_.settings) {
+    write_settings(*options_.settings, {state_.knobs, state_.dock, state_.text_size, state_.pace});
   }
   return 0;
 }

@@ -21,7 +21,8 @@ constexpr std::array key_bindings{
     Binding{KeyAction::pause, "Space", "", "y", "pause"},
     Binding{KeyAction::next_frame, "N", "", "dpright", "pause, and one frame forward"},
     Binding{KeyAction::previous_frame, "B", "", "dpleft", "pause, and one frame back"},
-    Binding{KeyAction::next_pace, "P", "", "", "pace: vsync, 60 Hz, 50 Hz"},
+    Binding{KeyAction::next_pace, "P", "", "", "pace: vsync, 60 Hz, 50 Hz, slow motion"},
+    Binding{KeyAction::loop, "L", "", "", "recording: loop from here; again: to here; again: no loop"},
     Binding{KeyAction::camera_home, "Home", "", "rightstick", "camera back to where the scene has it"},
     Binding{KeyAction::next_scene, "PageDown", "", "rightshoulder", "next scene"},
     Binding{KeyAction::previous_scene, "PageUp", "", "leftshoulder", "previous scene"},
@@ -32,10 +33,29 @@ constexpr std::array key_bindings{
     Binding{KeyAction::next_map, "E", "", "",
             "inspect: next map of errors, overdraw, who drew it, truth, depth"},
     Binding{KeyAction::cost, "C", "", "", "cost: ms with each knob set otherwise, live"},
+    Binding{KeyAction::table, "F5", "T", "",
+            "ordering table or draw list: every command; click a pixel for its own"},
+    Binding{KeyAction::next_command, ".", "", "", "one command forward: only those before are drawn"},
+    Binding{KeyAction::previous_command, ",", "", "", "one command back"},
+    Binding{KeyAction::next_group, "]", "", "", "one bucket, or change of state, forward"},
+    Binding{KeyAction::previous_group, "[", "", "", "one bucket, or change of state, back"},
+    Binding{KeyAction::next_wrong, "X", "", "", "to the next command that is seen where it should not be"},
+    Binding{KeyAction::all_commands, "End", "", "", "all commands again, as they were sent"},
+    Binding{KeyAction::hide, "Delete", "", "", "hide the command selected, or show it again"},
+    Binding{KeyAction::solo, "O", "", "", "draw the command selected alone, or all again"},
+    Binding{KeyAction::larger_text, "Ctrl +", "", "", "larger letters"},
+    Binding{KeyAction::smaller_text, "Ctrl -", "", "", "smaller letters"},
+    Binding{KeyAction::usual_text, "Ctrl 0", "", "", "letters as large as the display asks for"},
+    Binding{KeyAction::close, "Escape", "", "back",
+            "close the menu, the help, the panel opened last, or leave full screen"},
     Binding{KeyAction::fullscreen, "F11", "", "", "full screen"},
-    Binding{KeyAction::screenshot, "F12", "", "", "screenshot into the current folder"},
-    Binding{KeyAction::quit, "Escape", "Q", "back", "quit"},
+    Binding{KeyAction::save_picture, "F12", "", "",
+            "save the picture, pixel for pixel, into the current folder"},
+    Binding{KeyAction::save_window, "Shift F12", "", "", "save the whole window, likewise"},
+    Binding{KeyAction::quit, "Q", "", "", "quit"},
 };
+
+constexpr double text_step = 0.25;
 
 constexpr std::array held{
     Gesture{"1 .. 9", "that scene"},
@@ -52,18 +72,44 @@ void step(E& value, int count) {
 
 void toggle(bool& flag) { flag = !flag; }
 
-void pause_at(WindowState& state, std::int64_t frame) {
-  state.paused = true;
-  state.late = 0;
-  state.frame = std::max<std::int64_t>(frame, 0);
-}
-
 void show_scene(WindowState& state, int scene) {
   if (scene < 0 || scene >= state.scenes || scene == state.scene) return;
   state.scene = scene;
   state.frame = 0;
   state.late = 0;
   state.camera = {};
+  state.lens = {};
+  state.recorded = {};
+}
+
+template <class Set>
+void toggle_in(Set& set, std::size_t item) {
+  if (!set.erase(item)) set.insert(item);
+}
+
+// From here, to here, no loop.
+void loop(WindowState& state) {
+  auto& recorded = state.recorded;
+  if (recorded.last == 0) return;
+  if (!recorded.from) {
+    recorded.from = state.frame;
+  } else if (!recorded.to && state.frame >= *recorded.from) {
+    recorded.to = state.frame;
+  } else {
+    recorded.from = recorded.to = std::nullopt;
+  }
+}
+
+void close_one(WindowState& state) {
+  if (state.menu) {
+    state.close_menu = true;
+  } else if (state.help) {
+    state.help = false;
+  } else if (!state.dock.open.empty()) {
+    state.dock.close(state.dock.open.back());
+  } else {
+    state.fullscreen = false;
+  }
 }
 
 // Only powers of two, whatever the command line began with.
@@ -160,7 +206,7 @@ void handle(WindowState& state, Asked asked) {
       pause_at(state, state.frame - 1);
       break;
     case KeyAction::next_pace:
-      step(state.pace, 3);
+      step(state.pace, static_cast<int>(pace_words.size()));
       break;
     case KeyAction::camera_home:
       state.camera = {};
@@ -178,28 +224,74 @@ void handle(WindowState& state, Asked asked) {
       toggle(state.help);
       break;
     case KeyAction::knobs:
-      toggle(state.panel);
+      state.dock.toggle(Panel::knobs);
       break;
     case KeyAction::vram:
-      toggle(state.vram);
+      state.dock.toggle(Panel::vram);
       break;
     case KeyAction::inspect:
-      toggle(state.inspect);
+      state.dock.toggle(Panel::inspect);
       state.map = Map::none;
       state.first_draws = -1;
       break;
     case KeyAction::next_map:
-      state.inspect = true;
+      if (!state.shows(Panel::inspect)) state.dock.raise(Panel::inspect);
       step(state.map, static_cast<int>(map_names.size()));
       break;
     case KeyAction::cost:
-      toggle(state.cost);
+      state.dock.toggle(Panel::cost);
+      break;
+    case KeyAction::table:
+      state.dock.toggle(Panel::table);
+      break;
+    case KeyAction::next_command:
+      state.lens.step = Step{StepBy::command, true};
+      break;
+    case KeyAction::previous_command:
+      state.lens.step = Step{StepBy::command, false};
+      break;
+    case KeyAction::next_group:
+      state.lens.step = Step{StepBy::group, true};
+      break;
+    case KeyAction::previous_group:
+      state.lens.step = Step{StepBy::group, false};
+      break;
+    case KeyAction::next_wrong:
+      state.lens.step = Step{StepBy::wrong, true};
+      break;
+    case KeyAction::all_commands:
+      state.lens.shown.reset();
+      state.lens.edits = {};
+      break;
+    case KeyAction::hide:
+      if (state.lens.selected) toggle_in(state.lens.edits.hidden, *state.lens.selected);
+      break;
+    case KeyAction::solo:
+      if (state.lens.selected) toggle_in(state.lens.edits.solo, *state.lens.selected);
+      break;
+    case KeyAction::loop:
+      loop(state);
+      break;
+    case KeyAction::larger_text:
+      state.text_size = std::min(state.text_size + text_step, largest_text);
+      break;
+    case KeyAction::smaller_text:
+      state.text_size = std::max(state.text_size - text_step, smallest_text);
+      break;
+    case KeyAction::usual_text:
+      state.text_size = 1;
+      break;
+    case KeyAction::close:
+      close_one(state);
       break;
     case KeyAction::fullscreen:
       toggle(state.fullscreen);
       break;
-    case KeyAction::screenshot:
-      state.screenshot = true;
+    case KeyAction::save_picture:
+      state.save_picture = true;
+      break;
+    case KeyAction::save_window:
+      state.save_window = true;
       break;
     case KeyAction::quit:
       state.quit = true;
@@ -207,9 +299,18 @@ void handle(WindowState& state, Asked asked) {
   }
 }
 
+void pause_at(WindowState& state, std::int64_t frame) {
+  state.paused = true;
+  state.late = 0;
+  const bool is_recorded = state.recorded.last > 0;
+  state.frame = std::max<std::int64_t>(frame, is_recorded ? 1 : 0);
+  if (is_recorded) state.frame = std::min(state.frame, state.recorded.last);
+}
+
 void let_pass(WindowState& state, double seconds) {
   if (state.paused) return;
   constexpr double frames_per_second = 60;
+  const bool is_recorded = state.recorded.last > 0;
   double frames = 0;
   switch (state.pace) {
     case Pace::vsync:
@@ -219,13 +320,20 @@ void let_pass(WindowState& state, double seconds) {
       frames = 1;
       break;
     case Pace::hz50:
-      frames = 1.2;
+      frames = is_recorded ? 1 : 1.2;
+      break;
+    case Pace::slow:
+      frames = 0.1;
       break;
   }
   const double due = state.late * frames_per_second + frames;
   const double whole = std::floor(due + 1e-9);
   state.frame += static_cast<std::int64_t>(whole);
   state.late = std::max(due - whole, 0.0) / frames_per_second;
+  if (!is_recorded) return;
+  const auto& recorded = state.recorded;
+  const bool is_outside = state.frame < recorded.first_played() || state.frame > recorded.last_played();
+  if (is_outside) state.frame = recorded.first_played();
 }
 
 }  // namespace app

@@ -1,0 +1,98 @@
+#pragma once
+// A recording as the window shows it: any frame of a dump, or the one list of a saved RAM image.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/subject.h"
+#include "debug/clip.h"
+#include "debug/timeline.h"
+#include "display/scanout.h"
+
+namespace app {
+
+/// Which rectangle of VRAM is the picture: what the display shows, or what is drawn to. A program with two
+/// buffers shows the one while it draws the other.
+enum class Shown : std::uint8_t {
+  either,  ///< the display's, unless the frame draws beside it
+  drawn,
+  display,
+};
+
+/// Where the picture of `gpu` lies.
+display::Area shown_area(const gpu::Gpu& gpu, Shown shown);
+
+class Tape final : public Subject {
+ public:
+  /// `timeline` has its first frame; all tapes made by another() share it. `name`: of the file.
+  Tape(std::string name, std::shared_ptr<debug::Timeline> timeline, Shown shown = Shown::either);
+
+  /// In z-buffer mode the frame alone is drawn so, over what the console left of the frames before it.
+  base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
+                                       const CameraOffset& camera) override;
+  void watch(gpu::Trace* trace) override { trace_ = trace; }
+  [[nodiscard]] const base::Picture& picture() const override { return picture_; }
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override;
+  [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
+  [[nodiscard]] display::Area area() const override { return shown_area(gpu_, shown_); }
+  base::Result<debug::Clip> clip(std::int64_t frame, const scene::Knobs& knobs,
+                                 const CameraOffset& camera) override;
+  [[nodiscard]] std::unique_ptr<Subject> another(const scene::Knobs& knobs) const override;
+  [[nodiscard]] std::unique_ptr<Subject> apart(std::int64_t frame, const scene::Knobs& knobs) override;
+  [[nodiscard]] bool is_recording() const override { return true; }
+  [[nodiscard]] std::optional<std::int64_t> last_frame() const override;
+  bool index_some(double milliseconds) override { return timeline_->index_some(milliseconds); }
+  [[nodiscard]] double progress() const override { return timeline_->progress(); }
+  [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
+  [[nodiscard]] std::string why_empty() const override { return why_empty_; }
+  [[nodiscard]] const debug::Timeline& timeline() const { return *timeline_; }
+
+ private:
+  [[nodiscard]] std::uint64_t within(std::int64_t frame) const;
+
+  std::string name_;
+  std::shared_ptr<debug::Timeline> timeline_;
+  Shown shown_;
+  gpu::Trace* trace_ = nullptr;
+  gpu::Gpu gpu_;  // as the frame left it
+  base::Picture picture_;
+  std::string why_empty_;
+};
+
+/// One frame alone: what a thread of its own can measure.
+class ClipSubject final : public Subject {
+ public:
+  explicit ClipSubject(debug::Clip clip) : clip_(std::move(clip)) {}
+  base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
+                                       const CameraOffset& camera) override;
+  void watch(gpu::Trace* trace) override { trace_ = trace; }
+  [[nodiscard]] const base::Picture& picture() const override { return picture_; }
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override;
+  [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
+  base::Result<debug::Clip> clip(std::int64_t /*frame*/, const scene::Knobs& /*knobs*/,
+                                 const CameraOffset& /*camera*/) override {
+    return clip_;
+  }
+  [[nodiscard]] std::unique_ptr<Subject> another(const scene::Knobs& /*knobs*/) const override {
+    return std::make_unique<ClipSubject>(clip_);
+  }
+  [[nodiscard]] std::unique_ptr<Subject> apart(std::int64_t /*frame*/, const scene::Knobs& knobs) override {
+    return another(knobs);
+  }
+  [[nodiscard]] bool is_recording() const override { return true; }
+  [[nodiscard]] std::string why_empty() const override { return {}; }
+
+ private:
+  debug::Clip clip_;
+  gpu::Trace* trace_ = nullptr;
+  gpu::Gpu gpu_;
+  base::Picture picture_;
+};
+
+/// Draws a clip as the knobs say and tells what became of it. Error: knobs that a recording cannot meet,
+/// polygons without depth where that is refused.
+base::Result<scene::FrameStats> draw_clip(const debug::Clip& clip, const scene::Knobs& knobs, gpu::Gpu& gpu,
+                                          gpu::Trace* trace);
+
+}  // namespace app
