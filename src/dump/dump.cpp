@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "dump/compression.h"
+#include "dump/frames.h"
 #include "ot/command_stream.h"
 #include "ot/gp1.h"
 
@@ -384,7 +385,11 @@ gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& optio
   DrawingLimit limit(options.until);
   gpu::FrameEnd end;
   std::uint64_t vsyncs = 0, packets = 0;
-  bool in_frame = false;  // z-buffer: from the first word after a VSync to the next VSync
+  bool in_frame = false;  // z-buffer: from the first word of a frame to its last packet
+  std::optional<Frames> found;
+  const Frames* frames = options.frames;
+  if (frames == nullptr && gpu.depth_plane() != nullptr) frames = &found.emplace(dump);
+  std::uint64_t number = frames != nullptr ? frames->of_packet(options.first_packet) : 0;
   bool goes_on = true;
   const auto ask = [&](std::uint64_t words) { goes_on = !options.keep_going || options.keep_going(words); };
   const auto begin_frame = [&] {
@@ -400,6 +405,7 @@ gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& optio
   for (std::size_t n = options.first_packet; n < end_packet; ++n) {
     const Packet& packet = dump.packets[n];
     const auto payload = dump.payload(packet);
+    for (; frames != nullptr && number <= frames->count() && n >= frames->end(number); ++number) end_frame();
     switch (packet.type) {
       case PacketType::port0: {
         begin_frame();
@@ -419,7 +425,6 @@ gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& optio
         }
         break;
       case PacketType::vsync:
-        end_frame();
         gpu.next_field();
         ++vsyncs;
         break;

@@ -118,6 +118,8 @@ class DumpWriter {
 /// The file that parse_dump reads back to the same packets.
 std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format);
 
+class Frames;
+
 struct ReplayOptions {
   std::optional<std::uint64_t> frame{};            ///< stop at this VSync packet, from 1
   std::optional<std::uint64_t> until{};            ///< stop after this drawing command, from 1
@@ -127,10 +129,12 @@ struct ReplayOptions {
   std::function<bool(std::uint64_t words)> keep_going{};
   /// Only these packets; frames and commands are counted from the first of them.
   std::size_t first_packet = 0, end_packet = static_cast<std::size_t>(-1);
+  /// Where the frames of a z-buffer end; nullptr: Frames(dump), found anew for every replay with a z-buffer.
+  const Frames* frames = nullptr;
 };
 
-/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). In
-/// z-buffer mode a frame lasts from VSync to VSync, or to where the replay stops. Returns the sum of what
+/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). A z-buffer
+/// begins and ends its frames where `frames` says, or where the replay stops. Returns the sum of what
 /// end_frame told.
 gpu::FrameEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options = {});
 

@@ -1,7 +1,9 @@
 #include "dump/dump_file.h"
 
+#include <algorithm>
 #include <cctype>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 #include "base/file_kind.h"
@@ -105,7 +107,8 @@ void list_dump(const Dump& dump, const ReplayOptions& options,
                const std::function<void(const std::string&)>& line) {
   ot::CommandStream stream;
   std::uint64_t draws = 0, vsyncs = 0, begin = 0;
-  for (const auto& packet : dump.packets) {
+  const auto listed = std::min(options.end_packet, dump.packets.size());
+  for (const auto& packet : std::span(dump.packets).first(listed)) {
     const auto payload = dump.payload(packet);
     if (packet.type == PacketType::port0) {
       for (std::size_t n = 0; n < payload.size(); ++n) {

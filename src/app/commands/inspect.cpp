@@ -25,6 +25,7 @@
 #include "display/png.h"
 #include "dump/dump.h"
 #include "dump/dump_file.h"
+#include "dump/frames.h"
 #include "inspect/history.h"
 #include "inspect/json.h"
 #include "inspect/maps.h"
@@ -35,7 +36,8 @@ namespace app {
 namespace {
 
 struct InspectOptions {
-  std::string source, frame, frames, pixel, json, heatmap, overdraw, ids, truth, depth_map;
+  std::string source, frame, frames, frame_by = "display", pixel, json, heatmap, overdraw, ids, truth,
+                                     depth_map;
   std::int64_t max = -1;
   scene::Knobs knobs;
 
@@ -128,12 +130,12 @@ class DumpSource : public Source {
   static constexpr std::int64_t most_of_both = std::int64_t{400} << 20,
                                 least_of_trace = std::int64_t{128} << 20;
 
-  DumpSource(std::string name, dump::Dump dump, const scene::Knobs& knobs)
-      : name_(std::move(name)), dump_(std::move(dump)), knobs_(knobs) {
+  DumpSource(std::string name, dump::Dump dump, dump::FrameBy by, const scene::Knobs& knobs)
+      : name_(std::move(name)), dump_(std::move(dump)), frames_(dump_, by), knobs_(knobs) {
     gpu_.set_depth(scene::depth_options(knobs));
   }
 
-  // Frame N of a dump lies between its VSync packets N-1 and N. Frames must be asked for in ascending order.
+  // Frames must be asked for in ascending order.
   base::Result<Watched> frame(std::uint32_t number, gpu::Trace& trace) override {
     play_until(number - 1);
     trace.allowance = std::max(most_of_both - dump_.held_bytes(), least_of_trace);
@@ -156,35 +158,31 @@ class DumpSource : public Source {
         {"links", "", "not available: a dump holds no list, only the words it sent"});
     return watched;
   }
-  // Without a VSync packet the whole dump is one frame.
   [[nodiscard]] FrameRange frames() const override {
-    return {1, static_cast<std::uint32_t>(std::clamp<std::uint64_t>(dump_.vsyncs, 1, highest_number))};
+    return {1, static_cast<std::uint32_t>(std::min<std::uint64_t>(frames_.count(), highest_number))};
   }
 
  private:
-  // Replays what has not been replayed yet, up to and including VSync `vsyncs`; to the end if there are
-  // fewer.
-  gpu::FrameEnd play_until(std::uint64_t vsyncs, const gpu::Trace* watching = nullptr) {
+  // Replays what has not been replayed yet, up to the end of a frame; 0: nothing.
+  gpu::FrameEnd play_until(std::uint64_t frame, const gpu::Trace* watching = nullptr) {
     const std::size_t first = next_;
-    const bool is_one_frame = dump_.vsyncs == 0 && vsyncs > 0;
-    while (next_ < dump_.packets.size() && (seen_ < vsyncs || is_one_frame)) {
-      if (dump_.packets[next_++].type == dump::PacketType::vsync) ++seen_;
-    }
+    if (frame > 0) next_ = frames_.end(frame);
     return dump::replay(dump_, gpu_,
                         {.keep_going =
                              [watching](std::uint64_t) {
                                return (watching == nullptr || !watching->is_full) && !Interrupt::was_asked();
                              },
                          .first_packet = first,
-                         .end_packet = next_});
+                         .end_packet = next_,
+                         .frames = &frames_});
   }
 
   std::string name_;
   dump::Dump dump_;
+  dump::Frames frames_;
   scene::Knobs knobs_;
   gpu::Gpu gpu_;
-  std::size_t next_ = 0;
-  std::uint64_t seen_ = 0;
+  std::size_t next_ = 0;  // packet
 };
 
 std::optional<std::uint32_t> number(std::string_view text) {
@@ -256,7 +254,9 @@ base::Result<std::unique_ptr<Source>> open(const InspectOptions& options) {
       return tl::make_unexpected(checked.error());
     auto dump = dump::read_dump(options.source);
     if (!dump) return tl::make_unexpected(dump.error());
-    return std::make_unique<DumpSource>(options.source, std::move(*dump), options.knobs);
+    const auto by =
+        options.frame_by == dump::frame_by_names[1] ? dump::FrameBy::vsync : dump::FrameBy::display;
+    return std::make_unique<DumpSource>(options.source, std::move(*dump), by, options.knobs);
   }
   auto scene = open_scene(options.source);
   if (!scene) return tl::make_unexpected(scene.error());
@@ -366,8 +366,10 @@ Action add_inspect(Arguments arguments) {
   arguments.positional("source", "SCENE|DUMP", options->source,
                        "a scene of `otter list`, an .obj or .x3d file, or a GPU dump", Presence::required);
   arguments.text("--frame", "N", options->frame,
-                 "scene: frame N, from 0 [0]; dump: up to its N-th VSync, from 1 [1]");
+                 "scene: frame N, from 0 [0]; dump: its N-th frame, from 1 [1]");
   arguments.text("--frames", "A..B", options->frames, "several frames, both ends included");
+  arguments.choice("--frame-by", options->frame_by, {"display", "vsync"},
+                   "dump: a frame ends where the display shows another buffer, or at every VSync [display]");
   file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
   file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
   file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");

@@ -20,23 +20,29 @@
 #include "display/scanout.h"
 #include "display/vram_file.h"
 #include "dump/dump_file.h"
+#include "dump/frames.h"
 #include "scene/plan.h"
 
 namespace app {
 namespace {
 
 struct ReplayOptions {
-  std::string dump, vram, output, readback;
+  std::string dump, vram, output, readback, frame_by;
   std::optional<std::uint64_t> frame, until;
   std::uint64_t repeat = 0;
   bool list = false;
   scene::Knobs knobs;
+
+  /// --frame counts frames; false: VSync packets.
+  [[nodiscard]] bool counts_frames() const { return frame_by == dump::frame_by_names[0]; }
 };
 
-base::Result<void> check(const ReplayOptions& options, const dump::Dump& dump) {
-  if (options.frame && *options.frame > dump.vsyncs) {
+base::Result<void> check(const ReplayOptions& options, const dump::Dump& dump, const dump::Frames& frames) {
+  const bool by_display = options.counts_frames();
+  const std::uint64_t most = by_display ? frames.count() : dump.vsyncs;
+  if (options.frame && *options.frame > most) {
     return base::fail("--frame " + std::to_string(*options.frame) + ": " + options.dump + " has " +
-                      std::to_string(dump.vsyncs) + " VSync packets");
+                      std::to_string(most) + (by_display ? " frames" : " VSync packets"));
   }
   if (options.until && *options.until > dump.drawing_commands) {
     return base::fail("--until " + std::to_string(*options.until) + ": " + options.dump + " has " +
@@ -103,12 +109,19 @@ base::Result<int> replay(const ReplayOptions& options) {
     return tl::make_unexpected(checked.error());
   auto dump = dump::read_dump(options.dump);
   if (!dump) return tl::make_unexpected(dump.error());
-  if (auto checked = check(options, *dump); !checked) return tl::make_unexpected(checked.error());
+  const bool by_vsync = options.frame_by == dump::frame_by_names[1];
+  const dump::Frames frames(*dump, by_vsync ? dump::FrameBy::vsync : dump::FrameBy::display);
+  if (auto checked = check(options, *dump, frames); !checked) return tl::make_unexpected(checked.error());
   if (dump->gpu_version == 3) {
     base::warn("otter replay", options.dump + ": made for 2 MB of VRAM, drawn with 1 MB");
   }
 
-  dump::ReplayOptions limits{.frame = options.frame, .until = options.until};
+  dump::ReplayOptions limits{.until = options.until, .frames = &frames};
+  if (options.frame && options.counts_frames()) {
+    limits.end_packet = frames.end(*options.frame);
+  } else {
+    limits.frame = options.frame;
+  }
   if (options.list) {
     dump::list_dump(*dump, limits, [](const std::string& line) { std::puts(line.c_str()); });
   } else {
@@ -151,7 +164,10 @@ Action add_replay(Arguments arguments) {
                  "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords");
   arguments.text("-o,--output", "FILE", options->output, "write the display area as a PNG");
   arguments.number("--frame", "N", options->frame, std::uint64_t{1}, most,
-                   "stop at the Nth VSync packet, from 1");
+                   "stop at the Nth VSync packet, from 1; with --frame-by display, after the Nth frame");
+  arguments.choice("--frame-by", options->frame_by, {"display", "vsync"},
+                   "what --frame counts [vsync], and where the frames of a z-buffer end [display]: where the "
+                   "display shows another buffer, or at every VSync");
   arguments.number("--until", "K", options->until, std::uint64_t{1}, most,
                    "stop after the Kth drawing command, from 1");
   arguments.number("--repeat", "N", options->repeat, std::uint64_t{1}, std::uint64_t{1'000'000'000},
