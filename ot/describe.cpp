@@ -124,8 +124,12 @@ std::string annotation(std::uint32_t word) {
     return format("depth of vertex %u: %.4f", static_cast<unsigned>(code - depth_low),
                   DepthLow::get(word) / 4096.0);
   }
-  return format("fractions of vertex %u: %u/256,%u/256", static_cast<unsigned>(code - fraction),
-                static_cast<unsigned>(FractionX::get(word)), static_cast<unsigned>(FractionY::get(word)));
+  auto text =
+      format("fractions of vertex %u: %u/256,%u/256", static_cast<unsigned>(code - fraction),
+             static_cast<unsigned>(FractionX::get(word)), static_cast<unsigned>(FractionY::get(word)));
+  const int u = TexelRestU::get_signed(word), v = TexelRestV::get_signed(word);
+  if (u != 0 || v != 0) text += format(", texel %+d/8,%+d/8", u, v);
+  return text;
 }
 
 }  // namespace

@@ -273,13 +273,16 @@ using All = Field<0, 2>;
 namespace annotation {
 inline constexpr std::uint32_t depth_high = 0xe7;  ///< first: high bytes of v0, v1, v2; a second one: of v3
 inline constexpr std::uint32_t depth_low = 0xe8;   ///< + v: the low 24 bits of v's depth
-inline constexpr std::uint32_t fraction = 0xec;    ///< + v: the 8 bits below the integer x and y
+/// + v: the 8 bits below the integer x and y, and what the whole u and v of v leave over, eighths of a texel
+inline constexpr std::uint32_t fraction = 0xec;
 using DepthLow = Field<0, 24>;
 using High0 = Field<0, 8>;
 using High1 = Field<8, 8>;
 using High2 = Field<16, 8>;
 using FractionX = Field<0, 8>;
 using FractionY = Field<8, 8>;
+using TexelRestU = Field<16, 4>;              ///< signed
+using TexelRestV = Field<20, 4>;              ///< signed
 inline constexpr std::size_t max_words = 16;  ///< of one annotation node
 }  // namespace annotation
 

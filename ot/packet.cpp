@@ -54,6 +54,7 @@ std::uint32_t high_byte(std::uint32_t z) { return z >> 24; }
 
 /// Words of E7h: none, the one of v0..v2, or both.
 std::size_t high_words(const DepthAnnotation& a) {
+  if (!a.has_depth) return 0;
   if (a.count == 4 && high_byte(a.z[3]) != 0) return 2;
   return std::ranges::any_of(a.z.begin(), a.z.begin() + 3, [](auto z) { return high_byte(z) != 0; }) ? 1 : 0;
 }
@@ -75,7 +76,8 @@ std::size_t word_count(const Rectangle& r) { return gp0::rectangle::words(first_
 std::size_t word_count(const Line& l) { return l.gouraud ? 4 : 3; }
 std::size_t word_count(const Polyline& l) { return l.xy.size() + (l.gouraud ? l.xy.size() : 1) + 1; }
 std::size_t word_count(const DepthAnnotation& a) {
-  return static_cast<std::size_t>(a.count) * (a.has_fractions ? 2 : 1) + high_words(a);
+  return static_cast<std::size_t>(a.count) * ((a.has_depth ? 1 : 0) + (a.has_fractions ? 1 : 0)) +
+         high_words(a);
 }
 
 std::size_t encode(const Polygon& p, std::span<std::uint32_t> out) {
@@ -200,7 +202,8 @@ std::size_t encode(const DepthAnnotation& a, std::span<std::uint32_t> out) {
   assert(a.count == 3 || a.count == 4);
   Writer w{out};
   const auto vertices = static_cast<std::uint32_t>(a.count);
-  for (std::uint32_t v = 0; v < vertices; ++v) w.put(opcode(depth_low + v) | DepthLow::put(a.z[v]));
+  for (std::uint32_t v = 0; v < vertices && a.has_depth; ++v)
+    w.put(opcode(depth_low + v) | DepthLow::put(a.z[v]));
   const auto highs = high_words(a);
   if (highs > 0) {
     w.put(opcode(depth_high) | High0::put(high_byte(a.z[0])) | High1::put(high_byte(a.z[1])) |
@@ -209,7 +212,8 @@ std::size_t encode(const DepthAnnotation& a, std::span<std::uint32_t> out) {
   if (highs > 1) w.put(opcode(depth_high) | High0::put(high_byte(a.z[3])));
   if (a.has_fractions) {
     for (std::uint32_t v = 0; v < vertices; ++v) {
-      w.put(opcode(fraction + v) | FractionX::put(a.fx[v]) | FractionY::put(a.fy[v]));
+      w.put(opcode(fraction + v) | FractionX::put(a.fx[v]) | FractionY::put(a.fy[v]) |
+            TexelRestU::put_signed(a.du[v]) | TexelRestV::put_signed(a.dv[v]));
     }
   }
   return w.count;

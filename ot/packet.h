@@ -133,8 +133,12 @@ struct MaskBits {
 struct DepthAnnotation {
   std::array<std::uint32_t, 4> z{};        ///< view-space depth, unsigned 20.12, one per vertex
   std::array<std::uint8_t, 4> fx{}, fy{};  ///< the 8 bits below the integer screen coordinates
-  bool has_fractions = false;
-  int count = 3;  ///< vertices: 3 or 4
+  /// Exact texture coordinates are the packet's and these, eighths of a texel, -8..7; texel i has its middle
+  /// at i.
+  std::array<std::int8_t, 4> du{}, dv{};
+  bool has_depth = true;       ///< z counts
+  bool has_fractions = false;  ///< fx, fy, du, dv count
+  int count = 3;               ///< vertices: 3 or 4
   bool operator==(const DepthAnnotation&) const = default;
 };
 

@@ -127,7 +127,7 @@ std::vector<const scene::KnobInfo*> Viewer::unwatched_knobs(const scene::Knobs& 
   for (const auto& knob : scene::knob_table()) {
     scene::Knobs alone;
     knob.set(alone, knob.get(knobs));
-    const auto options = scene::canvas_options(alone, builder.world(), builder.units_per_world());
+    const auto options = builder.plan_of(alone).canvas;
     if (options && !options->can_be_watched()) asking.push_back(&knob);
   }
   return asking;

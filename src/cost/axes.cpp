@@ -184,37 +184,45 @@ std::vector<Combination> combinations(const scene::Knobs& given, bool quick) {
     std::string_view name;
     std::vector<Setting::Value> values;
   };
-  const std::vector<Choice> surfaces{
-      {"ot", {}},
-      {"ot, perspective", {{"texture", "perspective"}, {"position", "256"}, {"transform", "double"}}},
-      {"z 24", {{"visibility", "zbuffer"}}},
-      {"z 24, perspective",
-       {{"visibility", "zbuffer"},
-        {"texture", "perspective"},
-        {"position", "256"},
-        {"transform", "double"}}}};
+  const std::vector<Choice> surfaces{{"ot", {}}, {"z 24", {{"visibility", "zbuffer"}}}};
+  const std::vector<Choice> textures{{"affine", {}},
+                                     {"affine 4x4", {{"subdivide", "4"}}},
+                                     {"affine error-1", {{"subdivide", "error-1"}}},
+                                     {"perspective", {{"texture", "perspective"}}}};
+  const std::vector<Choice> positions{{"whole pixels", {}},
+                                      {"1/256 pixel", {{"position", "256"}, {"transform", "double"}}}};
   const std::vector<Choice> colours{{"15-dither", {}}, {"24", {{"colour", "24"}, {"fog", "pixel"}}}};
   const std::vector<Choice> filters{{"nearest", {}}, {"mipmap-linear", {{"filter", "mipmap-linear"}}}};
-  const std::vector<Choice> edges{{"none", {}},
-                                  {"msaa-4", {{"antialias", "msaa-4"}}},
-                                  {"fxaa", {{"antialias", "fxaa"}}},
-                                  {"rotated-4", {{"antialias", "rotated-4"}}},
-                                  {"rotated-16", {{"antialias", "rotated-16"}}}};
+  std::vector<Choice> edges{{"none", {}}};
+  for (const auto mode : {"fxaa", "msaa-4", "rotated-4", "msaa-8", "rotated-8", "rotated-16", "ssaa-8x8"})
+    edges.push_back({mode, {{"antialias", mode}}});
+  constexpr std::size_t cheap_edges = 4;  // the others cost more than all else, which is then at its best
   std::vector<Combination> list;
   const scene::Knobs base = console_knobs(given);
+  const auto add = [&](std::initializer_list<const Choice*> choices) {
+    scene::Knobs knobs = base;
+    std::string name;
+    for (const Choice* choice : choices) {
+      if (!name.empty()) name += ", ";
+      name += choice->name;
+      for (const auto& value : choice->values) knobs = set(knobs, {value});
+    }
+    list.push_back({std::move(name), knobs});
+  };
   for (const auto& surface : surfaces) {
-    for (const auto& colour : colours) {
-      for (const auto& filter : filters) {
-        for (const auto& edge : std::span(edges).first(quick ? 2 : edges.size())) {
-          if (quick && (filter.values.empty() != colour.values.empty())) continue;
-          scene::Knobs knobs = base;
-          std::string name;
-          for (const Choice* choice : {&surface, &colour, &filter, &edge}) {
-            if (!name.empty()) name += ", ";
-            name += choice->name;
-            for (const auto& value : choice->values) knobs = set(knobs, {value});
+    for (const auto& texture : textures) {
+      for (const auto& position : positions) {
+        for (const auto& colour : colours) {
+          for (const auto& filter : filters) {
+            // A quick report takes all of what is accurate together or none of it.
+            const bool is_mixed = texture.values.empty() != position.values.empty() ||
+                                  position.values.empty() != colour.values.empty() ||
+                                  colour.values.empty() != filter.values.empty();
+            if (quick && is_mixed) continue;
+            const std::size_t most = quick ? 3 : colour.values.empty() ? cheap_edges : edges.size();
+            for (const auto& edge : std::span(edges).first(most))
+              add({&surface, &texture, &position, &colour, &filter, &edge});
           }
-          list.push_back({std::move(name), knobs});
         }
       }
     }

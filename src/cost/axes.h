@@ -62,7 +62,7 @@ scene::Knobs console_knobs(const scene::Knobs& given);
 scene::Knobs accurate_knobs(const scene::Knobs& given);
 scene::Knobs reference_knobs(const scene::Knobs& given);
 
-/// Combinations across axes from which the Pareto front is drawn.
+/// Combinations across axes: the Pareto front is drawn from them and from all that the axes measure.
 struct Combination {
   std::string name;
   scene::Knobs knobs;

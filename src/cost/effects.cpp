@@ -18,68 +18,25 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using Timed = std::function<base::Result<double>()>;  // draws once; milliseconds
-
-/// A frame as it is, and without one effect after the other. Each is timed beside the whole frame, before and
-/// after it in turn, so that what a busy machine adds falls on both alike.
-class Variants {
- public:
-  explicit Variants(Timed whole) : whole_(std::move(whole)) {}
-  void add(Effect effect, Timed without) { variants_.push_back({std::move(effect), std::move(without), {}}); }
-  /// `keep_going` is asked before each timing.
-  void run(int round, const std::function<bool()>& keep_going) {
-    if (variants_.empty() && keep_going()) time_whole();
-    for (Variant& v : variants_) {
-      if (!keep_going()) return;
-      const bool whole_first = round % 2 == 0;
-      const double before = whole_first ? time_whole() : 0;
-      const auto without = v.without();
-      const double with = whole_first ? before : time_whole();
-      if (without) v.differences.push_back(with - *without);
-    }
-  }
-  [[nodiscard]] std::size_t timings() const { return std::max<std::size_t>(1, variants_.size()); }
-  [[nodiscard]] double whole_ms() const { return wholes_.empty() ? 0 : median(wholes_); }
-  void report(std::vector<Effect>& out) const {
-    for (const Variant& v : variants_) {
-      if (v.differences.empty()) continue;  // stopped before it had a turn
-      out.push_back(v.effect);
-      out.back().ms = median(v.differences);
-      out.back().spread = spread(v.differences);
-    }
-  }
-
- private:
-  struct Variant {
-    Effect effect;
-    Timed without;
-    std::vector<double> differences;
-  };
-  double time_whole() {
-    wholes_.push_back(whole_().value_or(0));
-    return wholes_.back();
-  }
-
-  Timed whole_;
-  std::vector<Variant> variants_;
-  std::vector<double> wholes_;
-};
-
 base::Result<double> total_ms(Subject& subject, const scene::Knobs& knobs) {
   const auto drawn = subject.draw(knobs);
   if (!drawn) return tl::make_unexpected(drawn.error());
   return drawn->stages.total();
 }
 
-/// The scene with its fog lifted, or its lamps put out.
-enum class Without : std::uint8_t { fog, light };
+base::Result<double> vertex_ms(Subject& subject, const scene::Knobs& knobs) {
+  const auto drawn = subject.draw(knobs);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  return drawn->stages.gte + drawn->stages.ot;
+}
+
+/// The scene with its fog lifted, and with its lamps put out as well.
+enum class Without : std::uint8_t { fog, fog_and_light };
 scene::Scene stripped(const scene::Scene& scene, Without what) {
   const auto strip = [what](scene::World& world) {
-    if (what == Without::fog) {
-      world.depth_cue.on = false;
-    } else {
-      for (auto& material : world.materials) material.lit = false;
-    }
+    world.depth_cue.on = false;
+    if (what == Without::fog) return;
+    for (auto& material : world.materials) material.lit = false;
   };
   scene::Scene copy = scene;
   strip(copy.world);
@@ -98,6 +55,14 @@ std::vector<std::string> raised(const scene::Knobs& knobs) {
     if (knob.get(knobs) != knob.get(console)) names.emplace_back(knob.name);
   }
   return names;
+}
+
+/// "filter bilinear".
+std::string said_of(const scene::Knobs& knobs, std::string_view name) {
+  for (const auto& knob : scene::knob_table()) {
+    if (knob.name == name) return joined({name, " ", knob.get(knobs)});
+  }
+  return {};
 }
 
 scene::Knobs lowered(const scene::Knobs& knobs, std::string_view name) {
@@ -203,22 +168,21 @@ std::set<Corners> lit_polygons(Subject& subject, const scene::Scene& scene, cons
 
 /// As often as asked, or nine times at least and then as often as fits into a second or two: the differences
 /// of short frames are small beside the noise of a clock and a machine.
-bool time_all(Variants& packets, Variants& frames, int rounds, const KeepGoing& keep_going) {
+bool time_all(std::initializer_list<Chain*> chains, int rounds, const KeepGoing& keep_going) {
   constexpr int least = 9;
   constexpr int most = 201;
   constexpr std::chrono::milliseconds budget(1500);
   const auto begin = std::chrono::steady_clock::now();
-  std::size_t done = 0;
-  const auto all =
-      static_cast<std::size_t>(rounds > 0 ? rounds : least) * (packets.timings() + frames.timings());
+  std::size_t done = 0, timings = 0;
+  for (const Chain* chain : chains) timings += chain->timings();
+  const auto all = static_cast<std::size_t>(rounds > 0 ? rounds : least) * timings;
   bool goes_on = true;
   const auto ask = [&] {
     return goes_on = goes_on && (!keep_going || keep_going(std::min(done++, all), all));
   };
   for (int round = 0; round < (rounds > 0 ? rounds : most); ++round) {
     if (rounds == 0 && round >= least && std::chrono::steady_clock::now() - begin > budget) break;
-    packets.run(round, ask);
-    frames.run(round, ask);
+    for (Chain* chain : chains) chain->run(round, ask);
     if (!goes_on) break;
   }
   return goes_on;
@@ -229,17 +193,73 @@ bool reads_frame(const gpu::Primitive& p, const scene::Knobs& knobs) {
   return p.is_textured() && p.state.page_x() < knobs.width && p.state.page_y() < 480;
 }
 
+/// What no plan of a frame shows: what is cut before any, and what works on finished pictures.
+bool matters_beside_the_plan(std::string_view name, const scene::Knobs& knobs, const scene::Plan& plan) {
+  using scene::AntialiasKind;
+  const auto kind = knobs.antialias.kind;
+  const bool has_samples = kind != AntialiasKind::off && kind != AntialiasKind::fxaa && plan.shown.polygons;
+  if (name == "size") return true;
+  if (name == "subdivide") return knobs.subdivide.pieces() > 1 && plan.shown.textured;
+  if (name == "antialias") return kind == AntialiasKind::fxaa;
+  if (name == "aa-filter") return has_samples && kind != AntialiasKind::taa;
+  return name == "aa-space" && has_samples;
+}
+
 }  // namespace
+
+void Chain::run(int round, const std::function<bool()>& keep_going) {
+  const bool forth = round % 2 == 0;
+  std::vector<std::optional<double>> times(steps_.size());
+  for (std::size_t i = 0; i < steps_.size(); ++i) {
+    if (!keep_going()) return;
+    const std::size_t k = forth ? i : steps_.size() - 1 - i;
+    if (const auto time = steps_[k].time()) times[k] = *time;
+  }
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    if (!times[k]) continue;
+    steps_[k].times.push_back(*times[k]);
+    if (k > 0 && times[k - 1]) steps_[k].differences.push_back(*times[k - 1] - *times[k]);
+  }
+}
+
+double Chain::whole() const { return steps_[0].times.empty() ? 0 : median(steps_[0].times); }
+
+double Chain::remainder() const {
+  double left = whole();
+  for (const Step& step : steps_) left -= step.differences.empty() ? 0 : median(step.differences);
+  return left;
+}
+
+void Chain::report(std::vector<Effect>& out) const {
+  for (const Step& step : steps_) {
+    if (step.differences.empty()) continue;  // the whole, or stopped before it had a turn
+    out.push_back(step.effect);
+    out.back().ms = median(step.differences);
+    out.back().spread = spread(step.differences);
+  }
+}
+
+std::vector<std::string> knobs_not_needed(Subject& subject, const scene::Knobs& knobs) {
+  std::vector<std::string> list;
+  const scene::Plan plan = subject.plan_of(knobs);
+  for (const auto& name : raised(knobs)) {
+    const scene::Knobs less = lowered(knobs, name);
+    if (subject.plan_of(less) == plan && !matters_beside_the_plan(name, knobs, plan))
+      list.push_back(said_of(knobs, name));
+  }
+  return list;
+}
 
 base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t frame,
                                         const scene::Knobs& knobs, int rounds, const KeepGoing& keep_going) {
   Subject subject(scene, frame);
-  EffectReport report{scene.name, frame, knobs.width, knobs.height, 0, {}, {}, {}, {}, true};
+  EffectReport report;
+  report.scene = scene.name;
+  report.frame = frame;
+  report.width = knobs.width;
+  report.height = knobs.height;
   const auto drawn = subject.draw(knobs);
   if (!drawn) return tl::make_unexpected(drawn.error());
-  auto words = subject.words(knobs);
-  if (!words) return tl::make_unexpected(words.error());
-  if (auto once = subject.draw_words(knobs, *words); !once) return tl::make_unexpected(once.error());
   find_kernels_and_buffers(subject.gpu(), *drawn, report);
   gpu::Trace trace;
   if (auto traced = subject.trace_console(knobs, trace); !traced) return tl::make_unexpected(traced.error());
@@ -252,39 +272,49 @@ base::Result<EffectReport> find_effects(const scene::Scene& scene, std::uint32_t
   }
   const auto& written = trace.written;
 
-  Variants packets([&] { return subject.draw_words(knobs, *words); });
+  report.not_needed = knobs_not_needed(subject, knobs);
+  Chain frames([&] { return total_ms(subject, knobs); });
+  scene::Knobs console = knobs;
+  for (const auto& name : raised(knobs)) {
+    console = lowered(console, name);
+    const auto said = said_of(knobs, name);
+    if (std::ranges::find(report.not_needed, said) != report.not_needed.end()) continue;
+    frames.add(counted(said, trace, written, is_polygon),
+               [&, less = console] { return total_ms(subject, less); });
+  }
+  if (auto ready = subject.draw(console); !ready) return tl::make_unexpected(ready.error());
+  auto words = subject.words(console);
+  if (!words) return tl::make_unexpected(words.error());
+
+  Chain packets([&] { return subject.draw_words(console, *words); });
   const auto asked = packet_effects();
   std::vector<std::vector<std::uint32_t>> edited(asked.size());
+  const auto* left = &*words;
   for (std::size_t i = 0; i < asked.size(); ++i) {
     const auto effect = counted(std::string(asked[i].name), trace, written, asked[i].asks);
     if (effect.primitives == 0) continue;
-    edited[i] = without(*words, i);
-    packets.add(effect, [&, i] { return subject.draw_words(knobs, edited[i]); });
+    edited[i] = without(*left, i);
+    left = &edited[i];
+    packets.add(effect, [&, i] { return subject.draw_words(console, edited[i]); });
   }
-  Variants frames([&] { return total_ms(subject, knobs); });
-  for (const auto& name : raised(knobs)) {
-    std::string value;
-    for (const auto& knob : scene::knob_table()) value += knob.name == name ? knob.get(knobs) : "";
-    frames.add(counted(joined({name, " ", value}), trace, written, is_polygon),
-               [&, less = lowered(knobs, name)] { return total_ms(subject, less); });
-  }
+
   Subject clear(stripped(scene, Without::fog), frame);
-  Subject unlit(stripped(scene, Without::light), frame);
+  Subject bare(stripped(scene, Without::fog_and_light), frame);
+  Chain vertices([&] { return vertex_ms(subject, console); });
   if (scene.world.depth_cue.on) {
-    frames.add(counted("depth cue (fog)", trace, written, is_polygon),
-               [&] { return total_ms(clear, knobs); });
+    vertices.add(counted("depth cue (fog)", trace, written, is_polygon),
+                 [&] { return vertex_ms(clear, console); });
   }
   const auto lit = lit_polygons(subject, scene, knobs);
   if (!lit.empty()) {
-    frames.add(
+    vertices.add(
         counted("lighting", trace, written,
                 [&lit](const gpu::Primitive& p) { return is_polygon(p) && lit.contains(corners_of(p)); }),
-        [&] { return total_ms(unlit, knobs); });
+        [&] { return vertex_ms(bare, console); });
   }
-  report.is_complete = time_all(packets, frames, rounds, keep_going);
-  report.ms = frames.whole_ms();
-  packets.report(report.effects);
-  frames.report(report.effects);
+  report.is_complete = time_all({&frames, &packets, &vertices}, rounds, keep_going);
+  report.ms = frames.whole();
+  for (const Chain* chain : {&packets, &frames, &vertices}) chain->report(report.effects);
   return report;
 }
 
@@ -301,12 +331,24 @@ std::string to_text(const EffectReport& report) {
               " ms\n\neffect                         primitives     pixels        ms    spread\n"});
   std::array<char, 160> line{};
   for (const auto& e : report.effects) {
-    std::snprintf(line.data(), line.size(), "  %-28s %10llu %10llu %9.4f %9.4f\n", e.name.c_str(),
-                  static_cast<unsigned long long>(e.primitives), static_cast<unsigned long long>(e.pixels),
-                  e.ms, e.spread);
+    std::snprintf(line.data(), line.size(), "  %-28s %10llu %10llu", e.name.c_str(),
+                  static_cast<unsigned long long>(e.primitives), static_cast<unsigned long long>(e.pixels));
+    text += line.data();
+    if (e.is_within_noise()) {
+      text += "    within noise\n";
+      continue;
+    }
+    std::snprintf(line.data(), line.size(), " %9.4f %9.4f\n", e.ms, e.spread);
+    text += line.data();
+  }
+  if (!report.effects.empty()) {
+    std::snprintf(line.data(), line.size(), "  %-50s %9.4f\n", "the frame without any of them",
+                  report.rest_ms());
     text += line.data();
   }
   if (report.effects.empty()) text += "  none: flat polygons in list order\n";
+  for (std::size_t i = 0; i < report.not_needed.size(); ++i)
+    text += joined({i == 0 ? "\nasked for, not needed\n" : "", "  ", report.not_needed[i], "\n"});
   text += "\nkernels that ran\n";
   for (const auto& kernel : report.kernels) text += joined({"  ", kernel, "\n"});
   text += "\nbuffers besides VRAM\n";
@@ -322,15 +364,17 @@ std::string to_json(const EffectReport& report) {
     effects.push_back({{"name", e.name},
                        {"primitives", e.primitives},
                        {"pixels", e.pixels},
-                       {"ms", e.ms},
-                       {"spread_ms", e.spread}});
+                       {"ms", std::max(0.0, e.ms)},
+                       {"spread_ms", e.spread},
+                       {"within_noise", e.is_within_noise()}});
   }
   Json buffers = Json::array();
   for (const auto& b : report.buffers) buffers.push_back({{"name", b.name}, {"bytes", b.bytes}});
-  const Json json{{"schema", "otter.effects/1"}, {"scene", report.scene},     {"frame", report.frame},
-                  {"width", report.width},       {"height", report.height},   {"ms", report.ms},
-                  {"effects", effects},          {"kernels", report.kernels}, {"buffers", buffers},
-                  {"notes", report.notes}};
+  const Json json{
+      {"schema", "otter.effects/1"}, {"scene", report.scene},       {"frame", report.frame},
+      {"width", report.width},       {"height", report.height},     {"ms", report.ms},
+      {"effects", effects},          {"kernels", report.kernels},   {"buffers", buffers},
+      {"notes", report.notes},       {"rest_ms", report.rest_ms()}, {"not_needed", report.not_needed}};
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -113,17 +113,16 @@ base::Result<Errors> ErrorMeter::measure(const scene::Knobs& knobs) {
   return errors;
 }
 
-/// What decides which surface wins is the same whatever is drawn beside it: one sample a pixel, whole
-/// positions.
+/// What decides which surface wins is the same in any colours, and judged at one sample a pixel.
 base::Result<void> ErrorMeter::judge_surfaces(const scene::Knobs& knobs, Errors& errors) {
-  const auto key =
-      key_of(knobs, {"visibility", "buckets", "key", "bias", "bucket-order", "depth", "depth-mapping",
-                     "depth-test", "depth-reversed", "near", "far", "transform", "subdivide"});
+  const auto key = key_of(
+      knobs, {"visibility", "buckets", "key", "bias", "bucket-order", "depth", "depth-mapping", "depth-test",
+              "depth-reversed", "near", "far", "transform", "subdivide", "position", "texture", "filter"});
   auto found = verdicts_.find(key);
   if (found == verdicts_.end()) {
     gpu::Trace trace;
     trace.keep_history = true;
-    if (auto traced = subject_.trace_console(knobs, trace); !traced) return traced;
+    if (auto traced = subject_.trace_surfaces(knobs, trace); !traced) return traced;
     const auto order = knobs.visibility == scene::Visibility::zbuffer ? inspect::Order::depth
                        : knobs.visibility == scene::Visibility::bsp   ? inspect::Order::exact
                                                                       : inspect::Order::list;

@@ -17,7 +17,7 @@ struct Finding {
   double error_to = 0;           ///< of the chosen one, swept down
 
   [[nodiscard]] bool improves() const { return chosen != console; }
-  [[nodiscard]] double ratio() const { return chosen->ms / console->ms; }
+  [[nodiscard]] double ratio() const { return console->ratio > 0 ? chosen->ratio / console->ratio : 0; }
 };
 
 /// Nothing if the axis was not measured, or not its console's setting.

@@ -90,7 +90,11 @@ std::vector<Without> variants_of(const RecordedFrame& frame, const gpu::Trace& t
 base::Result<EffectReport> find_effects(const RecordedFrame& frame, int rounds, const KeepGoing& keep_going) {
   constexpr int least = 9, most = 101;
   constexpr double budget_ms = 1500;
-  EffectReport report{frame.name, frame.frame, frame.width, frame.height, 0, {}, {}, {}, {}, true};
+  EffectReport report;
+  report.scene = frame.name;
+  report.frame = frame.frame;
+  report.width = frame.width;
+  report.height = frame.height;
   Stage stage(frame);
   gpu::Trace trace;
   stage.gpu().set_trace(&trace);

@@ -42,7 +42,9 @@ Json setting(const SceneResult& scene, const Row& row) {
           {"direction", direction_names[static_cast<std::size_t>(row.direction)]},
           {"setting", row.setting},
           {"ms", row.ms},
+          {"cpu_ms", row.cpu_ms},
           {"spread_ms", row.spread},
+          {"ratio", row.ratio},
           {"stages",
            {{"gte", row.stages.gte},
             {"ot", row.stages.ot},
@@ -77,9 +79,10 @@ void add_rows(std::string& text, const SceneResult& scene, const Axis& axis, Dir
   }
   for (const auto& row : scene.rows) {
     if (row.axis != &axis || row.direction != direction) continue;
-    const double ratio = console != nullptr && console->ms > 0 ? row.ms / console->ms : 0;
+    const double ratio = console != nullptr && console->ratio > 0 ? row.ratio / console->ratio : 0;
     text += "  " + padded(row.setting, 18, false) + padded(number(row.ms), 9) +
-            padded(number(row.spread), 9) + padded(ratio > 0 ? joined({"x", number(ratio)}) : "-", 9) +
+            padded(number(row.cpu_ms), 9) + padded(number(row.spread), 9) +
+            padded(ratio > 0 ? joined({"x", number(ratio)}) : "-", 9) +
             padded(bytes(row.touched.total()), 10) + padded(number(row.errors.of(axis.measure)), 10) +
             padded(number(row.errors.psnr), 8) + padded(number(row.errors.ssim), 9) +
             (row.is_console ? "  console" : "") + "\n";
@@ -119,6 +122,7 @@ std::string to_json(const Report& report) {
                       {"frame", scene.frame},
                       {"rounds", scene.rounds},
                       {"complete", scene.complete},
+                      {"noise", scene.noise},
                       {"skipped", scene.skipped},
                       {"sentences", sentences}});
     for (const auto& row : scene.rows) settings.push_back(setting(scene, row));
@@ -145,7 +149,7 @@ std::string to_csv(const Report& report) {
       "pixels_drawn,"
       "wrong_pixels,geometric_mean_px,geometric_p95_px,geometric_max_px,texel_mean,texel_p95,texel_max,"
       "colour_rms,"
-      "block_rms,psnr,ssim,edge_rms,console,pareto\r\n";
+      "block_rms,psnr,ssim,edge_rms,console,pareto,cpu_ms,ratio\r\n";
   const auto quoted = [](std::string_view text) {
     std::string result = "\"";
     for (const char c : text) result += c == '"' ? "\"\"" : std::string(1, c);
@@ -168,7 +172,8 @@ std::string to_csv(const Report& report) {
         csv += joined({",", number(v)});
       }
       csv += row.is_console ? ",1" : ",0";
-      csv += row.on_front ? ",1\r\n" : ",0\r\n";
+      csv += row.on_front ? ",1" : ",0";
+      csv += joined({",", number(row.cpu_ms), ",", number(row.ratio), "\r\n"});
     }
   }
   return csv;
@@ -185,23 +190,26 @@ std::string to_text(const Report& report) {
       for (const auto direction : {Direction::up, Direction::down}) {
         text += "\n " + std::string(axis.name) +
                 (direction == Direction::up ? ", up from the console" : ", down from the most accurate") +
-                "\n  " + padded("setting", 18, false) + padded("ms", 9) + padded("spread", 9) +
-                padded("ratio", 9) + padded("touched", 10) + padded("error", 10) + padded("PSNR", 8) +
-                padded("SSIM", 9) + "   error: " + info(axis.measure).name() + "\n";
+                "\n  " + padded("setting", 18, false) + padded("ms", 9) + padded("cpu", 9) +
+                padded("spread", 9) + padded("ratio", 9) + padded("touched", 10) + padded("error", 10) +
+                padded("PSNR", 8) + padded("SSIM", 9) + "   error: " + info(axis.measure).name() + "\n";
         add_rows(text, scene, axis, direction);
       }
       text += "  " + sentence(scene, axis) + "\n";
     }
-    std::vector<const Row*> front;
-    for (const auto& row : scene.rows) {
-      if (row.on_front && row.direction == Direction::cross) front.push_back(&row);
+    const auto front = front_of(scene.rows);
+    if (!front.empty()) {
+      text += joined({"\n Pareto front: of the ", std::to_string(scene.rows.size()),
+                      " rows measured none is both faster and nearer to the reference picture\n"});
     }
-    std::ranges::sort(front, {}, &Row::ms);
-    if (!front.empty())
-      text += "\n Pareto front: nothing measured is both faster and nearer to the reference\n";
     for (const Row* row : front) {
       text += "  " + padded(number(row->ms), 9) + " ms" + padded(number(row->errors.psnr), 8) + " dB   " +
-              row->setting + "\n";
+              row->label() + "\n";
+    }
+    if (scene.noise > SceneResult::busy) {
+      text +=
+          joined({" warning: the machine was busy: the console's frame spread by ", number(100 * scene.noise),
+                  " % (10 % is quiet); cpu and ratios are less touched by it\n"});
     }
     for (const auto& line : scene.skipped) text += " skipped: " + line + "\n";
   }

@@ -36,9 +36,9 @@ std::vector<const Row*> rows_of(const SceneResult& scene, const Axis* axis, Dire
   return list;
 }
 
-double console_ms(const std::vector<const Row*>& rows) {
+double console_ratio(const std::vector<const Row*>& rows) {
   const auto found = std::ranges::find_if(rows, &Row::is_console);
-  return found == rows.end() ? 0 : (*found)->ms;
+  return found == rows.end() ? 0 : (*found)->ratio;
 }
 
 /// The part of the picture in which the settings of a sweep differ most; where they do not, in which they
@@ -113,8 +113,8 @@ std::string summary_table(const SceneResult& scene, const Axis& axis) {
               number_head, half("up"), half("down"), "<th>PSNR, dB<th>SSIM</tr>\n"});
   const auto half_row = [&](const Row* row, double console) {
     if (row == nullptr) return std::string("<td class=gap>-<td>-<td>-");
-    return joined({"<td class=gap>", number(row->ms), "<td>", ratio(row->ms, console), "<td",
-                   row->on_front ? " class=best" : "", ">", number(row->error())});
+    return joined({"<td class=gap>", number(row->ms), "<td>", ratio(row->ratio, console), "<td",
+                   row->is_best ? " class=best" : "", ">", number(row->error())});
   };
   for (std::size_t i = 0; i < axis.settings.size(); ++i) {
     const auto* above = scene.find(axis, Direction::up, axis.settings[i].name);
@@ -122,8 +122,8 @@ std::string summary_table(const SceneResult& scene, const Axis& axis) {
     if (above == nullptr && below == nullptr) continue;
     html += joined({"<tr", i == axis.console ? " class=console" : "", ">",
                     numbered(axis) ? "<td>" + std::to_string(i + 1) : "", "<td class=name>",
-                    escaped(axis.settings[i].name), half_row(above, console_ms(up)),
-                    half_row(below, console_ms(down))});
+                    escaped(axis.settings[i].name), half_row(above, console_ratio(up)),
+                    half_row(below, console_ratio(down))});
     html += below != nullptr ? "<td>" + number(below->errors.psnr) + "<td>" + number(below->errors.ssim)
                              : std::string("<td>-<td>-");
     html += "</tr>\n";
@@ -140,10 +140,11 @@ std::string stage_table(const std::vector<const Row*>& rows, std::string_view ca
        "class=name>setting<th>median<th>spread<th>ratio<th>GTE<th>OT<th>walk<th>raster<th>filter<th>"
        "touched<th>held<th>mean<th>p95<th>max<th>mean<th>p95<th>max<th>rms<th>4x4<th>PSNR<th>SSIM<th>rms"
        "</tr>\n"});
-  const double console = console_ms(rows);
+  const double console = console_ratio(rows);
   for (const Row* row : rows) {
-    html += joined({"<tr", row->is_console ? " class=console" : "", "><td class=name>", escaped(row->setting),
-                    "<td>", number(row->ms), "<td>", number(row->spread), "<td>", ratio(row->ms, console)});
+    html +=
+        joined({"<tr", row->is_console ? " class=console" : "", "><td class=name>", escaped(row->setting),
+                "<td>", number(row->ms), "<td>", number(row->spread), "<td>", ratio(row->ratio, console)});
     const auto& s = row->stages;
     for (const double stage : {s.gte, s.ot, s.walk, s.raster, s.filter}) html += "<td>" + number(stage);
     html += "<td>" + bytes(row->touched.total()) + "<td>" + bytes(row->held_bytes);
@@ -199,10 +200,11 @@ std::string findings_table(const SceneResult& scene) {
     const auto& measure = info(axis.measure);
     html += joined({"<tr><td class=name><a href=\"#", anchor(scene, axis.name), "\">", axis.name,
                     "</a><td class=name>", escaped(found->console->setting), "<td class=name>"});
-    html += found->improves()
-                ? joined({escaped(found->chosen->setting), "<td>", number(found->console->ms), " &rarr; ",
-                          number(found->chosen->ms), "<td>", ratio(found->chosen->ms, found->console->ms)})
-                : std::string("nothing better here<td>-<td>-");
+    html +=
+        found->improves()
+            ? joined({escaped(found->chosen->setting), "<td>", number(found->console->ms), " &rarr; ",
+                      number(found->chosen->ms), "<td>", ratio(found->chosen->ratio, found->console->ratio)})
+            : std::string("nothing better here<td>-<td>-");
     html += joined({"<td class=\"name gap\">", measure.noun, "<td>", number(found->error_from), "<td>",
                     number(found->error_to), "<td class=name>", measure.unit, "</tr>\n"});
   }
@@ -226,32 +228,29 @@ std::string hero(const SceneResult& scene) {
 }
 
 std::string combinations_section(const SceneResult& scene, bool& has_plots) {
-  std::vector<const Row*> front;
-  for (const auto& row : scene.rows) {
-    if (row.on_front && row.direction == Direction::cross) front.push_back(&row);
-  }
+  const auto front = front_of(scene.rows);
   if (front.empty()) return {};
-  std::ranges::sort(front, {}, &Row::ms);
   const auto plot = front_plot(scene);
   has_plots = has_plots && !plot.empty();
   std::string html = joined(
       {"<h3 id=\"", anchor(scene, "front"),
-       "\">All axes together <small>no combination measured is both faster and nearer to the reference than "
-       "those on the Pareto front</small></h3>\n<div class=pair>",
+       "\">All axes together <small>no setting or combination measured is both faster and nearer to the "
+       "reference picture than those on the Pareto front</small></h3>\n<div class=pair>",
        plot,
-       "<div class=wide><table><tr><th>no.<th class=name>combination<th>ms<th>error, rms of 255<th>PSNR, "
+       "<div class=wide><table><tr><th>no.<th class=name>setting or combination<th>ms<th>error, rms of "
+       "255<th>PSNR, "
        "dB<th>SSIM</tr>\n"});
   for (std::size_t i = 0; i < front.size(); ++i) {
     const Row& row = *front[i];
-    html += joined({"<tr><td>", std::to_string(i + 1), "<td class=\"name text\">", escaped(row.setting),
-                    "<td>", number(row.ms), "<td>", number(row.error()), "<td>", number(row.errors.psnr),
-                    "<td>", number(row.errors.ssim), "</tr>\n"});
+    html += joined({"<tr><td>", std::to_string(i + 1), "<td class=\"name text\">", escaped(row.label()),
+                    "<td>", number(row.ms), "<td>", number(row.errors.colour_rms), "<td>",
+                    number(row.errors.psnr), "<td>", number(row.errors.ssim), "</tr>\n"});
   }
   html += "</table></div></div>\n<div class=pictures>\n";
   const auto detail = detail_of(front, scene.reference);
   for (std::size_t i = 0; i < front.size(); ++i) {
     html += figure(*front[i], detail,
-                   joined({"<b>", std::to_string(i + 1), "</b>&ensp;", escaped(front[i]->setting), ", ",
+                   joined({"<b>", std::to_string(i + 1), "</b>&ensp;", escaped(front[i]->label()), ", ",
                            ms(front[i]->ms)}));
   }
   return html + "</div>\n";

@@ -198,8 +198,8 @@ std::vector<Dot> dots_of(const SceneResult& scene, const Axis* axis, Direction d
   std::vector<Dot> dots;
   for (const auto& row : scene.rows) {
     if (row.axis != axis || row.direction != direction) continue;
-    const auto label = axis != nullptr && numbered(*axis) ? setting_number(row) : row.setting;
-    dots.push_back({row.ms, row.error(), label, std::string(colour), row.on_front});
+    const auto label = numbered(*axis) ? setting_number(row) : row.setting;
+    dots.push_back({row.ms, row.error(), label, std::string(colour), row.is_best});
   }
   return dots;
 }
@@ -240,12 +240,15 @@ std::string axis_plot(const SceneResult& scene, const Axis& axis) {
   return plotted(script);
 }
 
-/// Every combination, and the front of those that nothing beats in both.
+/// Every row, and the front of those that nothing beats in both.
 std::string front_plot(const SceneResult& scene) {
   constexpr Size size{640, 460};
-  auto all = dots_of(scene, nullptr, Direction::cross, theme::front);
-  std::vector<Dot> front;
-  std::ranges::copy_if(all, std::back_inserter(front), &Dot::on_front);
+  const auto dot = [](const Row& row) {
+    return Dot{row.ms, row.errors.colour_rms, {}, std::string(theme::front), row.on_front};
+  };
+  std::vector<Dot> all, front;
+  std::ranges::transform(scene.rows, std::back_inserter(all), dot);
+  for (const Row* row : front_of(scene.rows)) front.push_back(dot(*row));
   if (front.empty()) return {};
   std::ranges::sort(front, {}, &Dot::x);
   for (std::size_t i = 0; i < front.size(); ++i) front[i].label = std::to_string(i + 1);
@@ -257,9 +260,9 @@ std::string front_plot(const SceneResult& scene) {
   for (const Dot& d : front) script += labels.place(d);
   script += data("all", all, false) + data("front", front, false);
   script += joined({"plot $all using 1:2 with points pt 6 ps 0.7 lw 1.3 lc rgb '", theme::soft,
-                    "' title 'combination', $front using 1:2 with steps lw 1.5 lc rgb '", theme::front,
-                    "' notitle, $front using 1:2 with points pt 7 ps 1.1 lc rgb '", theme::front,
-                    "' title 'on the Pareto front'\n"});
+                    "' title 'setting or combination', $front using 1:2 with steps lw 1.5 lc rgb '",
+                    theme::front, "' notitle, $front using 1:2 with points pt 7 ps 1.1 lc rgb '",
+                    theme::front, "' title 'on the Pareto front'\n"});
   return plotted(script);
 }
 

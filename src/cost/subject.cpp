@@ -16,14 +16,16 @@ base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   machine_.presenter().forget();
   const int before = std::max(1, machine::Presenter::frames_before(knobs));
   base::Result<scene::FrameStats> stats;
-  double filter = 0;
+  double filter = 0, cpu = 0;
   for (int i = 0; i <= before; ++i) {
     if (gpu.canvas() != nullptr) gpu.canvas()->reset_counters();  // those of the last frame are asked for
+    const double cpu_start = base::cpu_ms();
     stats = scene::render_frame(build, seconds(), knobs, machine_.ram(), gpu);
     if (!stats) return tl::make_unexpected(stats.error());
     const double start = base::now_ms();
     machine_.show(knobs);
     filter = base::now_ms() - start;
+    cpu = base::cpu_ms() - cpu_start;
   }
   // The walk alone, over the list that is still in RAM.
   auto frame = build.build(seconds(), knobs, machine_.ram());
@@ -41,6 +43,7 @@ base::Result<Drawn> Subject::draw(const scene::Knobs& knobs) {
   drawn.stages.ot = stats->ot_ms;
   drawn.stages.raster = std::max(0.0, stats->raster_ms - drawn.stages.walk);
   drawn.stages.filter = filter;
+  drawn.cpu_ms = cpu;
   drawn.history_bytes = machine_.presenter().bytes();
   drawn.held_bytes = stats->ram_bytes + gpu.depth_bytes() + gpu.queue_bytes() + machine_.presenter().bytes();
   if (gpu.canvas() != nullptr) {
@@ -75,6 +78,15 @@ base::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
   return trace(knobs, to);
 }
 
+base::Result<void> Subject::trace_surfaces(scene::Knobs knobs, gpu::Trace& to) {
+  const scene::Knobs console;
+  knobs.colour = console.colour;
+  knobs.antialias = console.antialias;
+  knobs.fog = console.fog;
+  knobs.resolution = console.resolution;
+  return trace(knobs, to);
+}
+
 base::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
   gpu::Gpu& gpu = machine_.gpu();
   knobs.antialias = {};
@@ -82,7 +94,7 @@ base::Result<Traced> Subject::trace_canvas(scene::Knobs knobs) {
   knobs.filter = scene::Filter::nearest;
   knobs.colour = scene::Colour::bits24;  // asks for a canvas and changes no coordinate
   const auto& build = builder(knobs);
-  auto options = scene::canvas_options(knobs, build.world(), build.units_per_world());
+  auto options = build.plan_of(knobs).canvas;
   options->trace = true;
   gpu.set_canvas(options);  // use_targets keeps the trace of a canvas that has one
   gpu::Trace to;
@@ -124,11 +136,6 @@ base::Result<double> Subject::draw_words(const scene::Knobs& knobs, std::span<co
   gpu.gp0(words);
   gpu.end_frame();
   return base::now_ms() - start;
-}
-
-bool Subject::uses_canvas(const scene::Knobs& knobs) {
-  const auto& build = builder(knobs);
-  return scene::canvas_options(knobs, build.world(), build.units_per_world()).has_value();
 }
 
 std::vector<scene::ScreenPolygon> Subject::polygons(const scene::Knobs& knobs) {

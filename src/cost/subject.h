@@ -12,6 +12,7 @@
 #include "machine/machine.h"
 #include "scene/frame.h"
 #include "scene/knobs.h"
+#include "scene/plan.h"
 
 namespace cost {
 
@@ -28,6 +29,7 @@ struct Stages {
 /// A frame and what is known about it.
 struct Drawn {
   Stages stages;
+  double cpu_ms = 0;  ///< of the process, for all stages: what others take of the machine is not in it
   scene::FrameStats stats;
   std::uint64_t held_bytes =
       0;  ///< memory the frame needs: lists in main RAM, frame, depth, samples, history
@@ -58,13 +60,18 @@ class Subject {
 
   /// The frame drawn on the console's target with a history of every write, for inspection.
   base::Result<void> trace_console(scene::Knobs knobs, gpu::Trace& to);
+  /// The same at the positions and with the texels that the knobs draw, one sample a pixel: what inspect
+  /// judges.
+  base::Result<void> trace_surfaces(scene::Knobs knobs, gpu::Trace& to);
   /// The frame drawn on a canvas of one sample that keeps who wrote what.
   base::Result<Traced> trace_canvas(scene::Knobs knobs);
   /// The words of the frame, list after list, as a walk sends them.
   base::Result<std::vector<std::uint32_t>> words(const scene::Knobs& knobs);
   /// Draws such words on the targets of `knobs`: milliseconds.
   base::Result<double> draw_words(const scene::Knobs& knobs, std::span<const std::uint32_t> words);
-  [[nodiscard]] bool uses_canvas(const scene::Knobs& knobs);
+  [[nodiscard]] bool uses_canvas(const scene::Knobs& knobs) { return plan_of(knobs).canvas.has_value(); }
+  /// What the knobs mean for the frame.
+  [[nodiscard]] scene::Plan plan_of(const scene::Knobs& knobs) { return builder(knobs).plan_of(knobs); }
   /// The polygons as they would be drawn, before any is.
   std::vector<scene::ScreenPolygon> polygons(const scene::Knobs& knobs);
 

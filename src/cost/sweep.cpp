@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "cost/metrics.h"
+#include "cost/text.h"
 
 namespace cost {
 namespace {
@@ -13,6 +14,7 @@ struct Job {
   scene::Knobs knobs;
   std::vector<std::size_t> rows;
   std::vector<Stages> samples;
+  std::vector<double> cpu = {}, ratios = {};
   Touched touched = {};
   std::uint64_t held_bytes = 0;
 };
@@ -115,6 +117,8 @@ void summarise(const Job& job, Row& row) {
   for (const auto& s : job.samples) totals.push_back(s.total());
   row.ms = median(totals);
   row.spread = spread(totals);
+  row.cpu_ms = median(job.cpu);
+  row.ratio = job.ratios.empty() ? 0 : median(job.ratios);
   row.touched = job.touched;
   row.held_bytes = job.held_bytes;
 }
@@ -128,15 +132,62 @@ const Row* SceneResult::find(const Axis& axis, Direction direction, std::string_
   return nullptr;
 }
 
+std::string Row::label() const {
+  if (axis == nullptr) return setting;
+  return joined({axis->name, " ", setting,
+                 direction == Direction::up ? ", all else as on the console" : ", all else most accurate"});
+}
+
 void mark_front(std::vector<Row>& rows) {
+  const auto beats = [](const Row& a, const Row& b, auto&& error) {
+    return a.ms <= b.ms && error(a) <= error(b) && (a.ms < b.ms || error(a) < error(b));
+  };
+  const auto own = [](const Row& row) { return row.error(); };
+  const auto distance = [](const Row& row) { return row.errors.of(Measure::colour); };
   for (auto& row : rows) {
-    row.on_front = std::ranges::none_of(rows, [&](const Row& other) {
-      const bool competes = other.axis == row.axis && other.direction == row.direction;
-      const bool no_worse = other.ms <= row.ms && other.error() <= row.error();
-      return competes && no_worse && (other.ms < row.ms || other.error() < row.error());
+    row.is_best = std::ranges::none_of(rows, [&](const Row& other) {
+      return other.axis == row.axis && other.direction == row.direction && beats(other, row, own);
     });
+    row.on_front = std::ranges::none_of(rows, [&](const Row& other) { return beats(other, row, distance); });
   }
 }
+
+std::vector<const Row*> front_of(const std::vector<Row>& rows) {
+  std::vector<const Row*> front;
+  for (const auto& row : rows) {
+    const auto same = [&row](const Row* other) { return other->knobs == row.knobs; };
+    if (row.on_front && std::ranges::none_of(front, same)) front.push_back(&row);
+  }
+  std::ranges::stable_sort(front, {}, [](const Row* row) { return row->ms; });
+  return front;
+}
+
+namespace {
+
+/// The console's frame, drawn just before another one.
+class Neighbour {
+ public:
+  Neighbour(Subject& subject, const scene::Knobs& given)
+      : subject_(subject), console_(console_knobs(given)) {}
+  void draw() {
+    const auto drawn = subject_.draw(console_);
+    cpu_ms_ = drawn ? drawn->cpu_ms : 0;
+    if (drawn) walls_.push_back(drawn->stages.total());
+  }
+  void compare(const Drawn& drawn, Job& job) const {
+    job.cpu.push_back(drawn.cpu_ms);
+    if (cpu_ms_ > 0) job.ratios.push_back(drawn.cpu_ms / cpu_ms_);
+  }
+  [[nodiscard]] double noise() const { return walls_.empty() ? 0 : spread(walls_) / median(walls_); }
+
+ private:
+  Subject& subject_;
+  scene::Knobs console_;
+  double cpu_ms_ = 0;
+  std::vector<double> walls_;
+};
+
+}  // namespace
 
 base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
   SceneResult result;
@@ -158,10 +209,12 @@ base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
   if (auto ready = meter.prepare(); !ready) return tl::make_unexpected(ready.error());
   result.reference = meter.reference();
 
+  Neighbour neighbour(subject, options.given);
   // Errors in the first round: they do not change from round to round.
   for (auto& job : jobs) {
     if (stopped()) break;
     const double start = now_seconds();
+    neighbour.draw();
     const auto drawn = subject.draw(job.knobs);
     const double seconds = now_seconds() - start;
     const auto counted = drawn ? touched(subject, job.knobs, *drawn) : tl::make_unexpected(drawn.error());
@@ -176,6 +229,7 @@ base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
     }
     job.held_bytes = drawn->held_bytes;
     job.touched = *counted;
+    neighbour.compare(*drawn, job);
     job.samples.push_back(drawn->stages);  // the first round: what a stopped sweep can report
     const auto picture = shrunk(subject.picture(), job.knobs.resolution);
     for (const auto r : job.rows) {
@@ -190,7 +244,11 @@ base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
     for (auto& job : jobs) {
       if (stopped()) break;
       const double start = now_seconds();
-      if (const auto drawn = subject.draw(job.knobs)) job.samples.push_back(drawn->stages);
+      neighbour.draw();
+      if (const auto drawn = subject.draw(job.knobs)) {
+        job.samples.push_back(drawn->stages);
+        neighbour.compare(*drawn, job);
+      }
       forecast.later_round(now_seconds() - start);
       step();
     }
@@ -205,6 +263,7 @@ base::Result<SceneResult> sweep(Subject& subject, const SweepOptions& options) {
   }
   std::erase_if(rows, [](const Row& row) { return row.picture.width == 0 || row.ms <= 0; });
   mark_front(rows);
+  result.noise = neighbour.noise();
   result.rows = std::move(rows);
   return result;
 }

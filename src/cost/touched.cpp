@@ -81,7 +81,8 @@ base::Result<Touched> touched(Subject& subject, const scene::Knobs& knobs, const
   if (subject.gpu().canvas() != nullptr) {
     count_canvas(*subject.gpu().canvas(), knobs, t);
   } else {
-    t.depth = subject.gpu().depth_bytes();
+    const auto* plane = subject.gpu().depth_plane();
+    t.depth = plane != nullptr ? plane->touched_bytes() : 0;
     t.filter = shown * (vram_pixel + shown_pixel);
     gpu::Trace trace;
     trace.keep_history = true;

@@ -68,7 +68,7 @@ class Scanner {
   ot::CommandStream& stream_;
 };
 
-void FrameIndex::extend(const dump::Dump& dump, bool is_all, bool drops_rest) {
+void FrameIndex::extend(const dump::Dump& dump, bool is_all, bool drops_rest, const dump::Frames* frames) {
   if (is_all_) return;
   Scanner scanner(now_);
   const auto end_frame = [&](std::size_t end) {
@@ -85,7 +85,7 @@ void FrameIndex::extend(const dump::Dump& dump, bool is_all, bool drops_rest) {
           drawings_ += command.drawing;
         },
         [](Place) {});
-    if (ends_frame(dump.packets[packets_])) end_frame(packets_ + 1);
+    if (ends_frame(dump, packets_, frames)) end_frame(packets_ + 1);
   }
   is_all_ = is_all;
   if (is_all && !drops_rest && (next_.commands != 0 || frames_.empty())) end_frame(packets_);

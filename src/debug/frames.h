@@ -11,6 +11,7 @@
 
 #include "debug/recording.h"
 #include "dump/dump.h"
+#include "dump/frames.h"
 #include "ot/command_stream.h"
 
 namespace debug {
@@ -22,8 +23,12 @@ struct Place {
   auto operator<=>(const Place&) const = default;
 };
 
-/// Whether a frame ends with this packet.
-inline bool ends_frame(const dump::Packet& packet) { return packet.type == dump::PacketType::vsync; }
+/// Whether a frame ends with packet `number`; `frames`: where they do, nullptr: at every VSync.
+inline bool ends_frame(const dump::Dump& dump, std::size_t number, const dump::Frames* frames) {
+  if (frames == nullptr) return dump.packets[number].type == dump::PacketType::vsync;
+  const auto frame = frames->of_packet(number);
+  return frame <= frames->count() && frames->end(frame) == number + 1;
+}
 
 struct Frame {
   std::size_t first_packet = 0, end_packet = 0;  ///< the packet that ends it is the last of them
@@ -45,7 +50,8 @@ class FrameIndex {
  public:
   /// Takes the packets that have come since the last call. `is_all`: no others will come, and what is behind
   /// the last end of a frame is a frame of its own, if there are commands in it or if it is the only one.
-  void extend(const dump::Dump& dump, bool is_all, bool drops_rest);
+  /// `frames`: where they end, nullptr: at every VSync.
+  void extend(const dump::Dump& dump, bool is_all, bool drops_rest, const dump::Frames* frames = nullptr);
 
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
   /// The commands of frame `index`, from 0.

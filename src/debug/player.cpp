@@ -58,7 +58,7 @@ void Player::send(std::size_t number, std::uint32_t first, std::uint32_t end) {
     default:
       break;
   }
-  if (ends_frame(packet)) end_frame();
+  if (ends_frame(recording_.dump(), number, options_.frames.get())) end_frame();
   if (packet.type == PacketType::vsync) gpu_.next_field();
 }
 

@@ -2,6 +2,7 @@
 // A recording on its way into a GPU, from place to place.
 
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "debug/frames.h"
@@ -13,7 +14,8 @@ namespace debug {
 
 /// How a recording is drawn: nothing of it is the console.
 struct DrawOptions {
-  std::optional<gpu::DepthOptions> depth{};  ///< a z-buffer, fed by annotation words
+  std::optional<gpu::DepthOptions> depth{};      ///< a z-buffer, fed by annotation words
+  std::shared_ptr<const dump::Frames> frames{};  ///< where frames end; nullptr: at every VSync
   bool depth_of_bucket = false;  ///< polygons without depth get that of their bucket (RAM lists with a table)
   bool operator==(const DrawOptions&) const = default;
 };

@@ -23,8 +23,18 @@ Timeline::Timeline(Recording recording, const DrawOptions& options, std::uint64_
 
 Timeline::~Timeline() = default;
 
+void Timeline::end_frames_by(dump::FrameBy by) {
+  assert(is_read());
+  frames_ = by == dump::FrameBy::vsync ? nullptr : std::make_shared<const dump::Frames>(dump(), by);
+  index_ = {};
+  commands_of_ = 0;
+  find_frames();
+  set_options(options_);
+}
+
 void Timeline::set_options(const DrawOptions& options) {
   options_ = options;
+  options_.frames = frames_;
   keyframes_.clear();
   spacing_ms_ = first_spacing_ms;
   since_state_ms_ = 0;
@@ -37,7 +47,7 @@ void Timeline::set_options(const DrawOptions& options) {
 void Timeline::find_frames() {
   const bool is_all = recording_.is_read();
   const bool drops_rest = !recording_.fault().empty();
-  index_.extend(recording_.dump(), is_all, drops_rest);
+  index_.extend(recording_.dump(), is_all, drops_rest, frames_.get());
 }
 
 bool Timeline::index_some(double milliseconds) {

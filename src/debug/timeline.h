@@ -58,6 +58,9 @@ class Timeline {
   /// Reads everything. `keep_going` is asked now and then, and told how much is done, 0..1.
   /// Error: as read_first_frame().
   base::Result<void> read_all(const std::function<bool(double)>& keep_going = {});
+  /// After read_all(): frames end where the display shows another buffer, or at every VSync, as they do until
+  /// this is asked for; numbers change with it.
+  void end_frames_by(dump::FrameBy by);
   [[nodiscard]] bool is_read() const { return recording_.is_read(); }
   [[nodiscard]] bool is_indexed() const;
   /// 0..1, of reading and of keeping states.
@@ -117,6 +120,7 @@ class Timeline {
   void go_to(Place place);
 
   Recording recording_;
+  std::shared_ptr<const dump::Frames> frames_;  // where frames end; nullptr: at every VSync
   DrawOptions options_;
   std::uint64_t limit_bytes_;
   FrameIndex index_;

@@ -25,6 +25,7 @@ constexpr std::array rows{KnobRow{"visibility", "ot|zbuffer"},
                           KnobRow{"colour", ""},
                           KnobRow{"antialias", ""},
                           KnobRow{"aa-filter", ""},
+                          KnobRow{"aa-space", ""},
                           KnobRow{"resolution", ""}};
 
 const scene::KnobInfo* info_of(std::string_view name) {

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "dump/compression.h"
+#include "dump/frames.h"
 #include "ot/command_stream.h"
 #include "ot/gp1.h"
 
@@ -389,7 +390,11 @@ ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) 
   DrawingLimit limit(options.until);
   ReplayEnd end;
   std::uint64_t vsyncs = 0, packets = 0;
-  bool in_frame = false;  // from the first word after a VSync to the next VSync
+  bool in_frame = false;  // z-buffer: from the first word of a frame to its last packet
+  std::optional<Frames> found;
+  const Frames* frames = options.frames;
+  if (frames == nullptr && gpu.depth_plane() != nullptr) frames = &found.emplace(dump);
+  std::uint64_t number = frames != nullptr ? frames->of_packet(options.first_packet) : 0;
   bool goes_on = true;
   const auto ask = [&](std::uint64_t words) { goes_on = !options.keep_going || options.keep_going(words); };
   const auto begin_frame = [&] {
@@ -398,7 +403,7 @@ ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) 
     in_frame = true;
   };
   const auto end_frame = [&] {
-    if (in_frame) add(end, gpu.end_frame(), vsyncs + 1);
+    if (in_frame) add(end, gpu.end_frame(), frames != nullptr ? number : vsyncs + 1);
     in_frame = false;
   };
   const auto whole = std::min(options.end_packet, dump.packets.size());
@@ -407,6 +412,7 @@ ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) 
     const Packet& packet = dump.packets[n];
     auto payload = dump.payload(packet);
     if (n == whole) payload = payload.first(std::min<std::size_t>(payload.size(), options.end_words));
+    for (; frames != nullptr && number <= frames->count() && n >= frames->end(number); ++number) end_frame();
     switch (packet.type) {
       case PacketType::port0: {
         begin_frame();
@@ -427,7 +433,6 @@ ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options) 
         }
         break;
       case PacketType::vsync:
-        end_frame();
         gpu.next_field();
         ++vsyncs;
         break;

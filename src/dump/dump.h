@@ -124,6 +124,8 @@ std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format);
 /// is one.
 void read_words(gpu::Gpu& gpu, std::uint32_t count, std::vector<std::uint32_t>* into = nullptr);
 
+class Frames;
+
 struct ReplayOptions {
   std::optional<std::uint64_t> frame{};            ///< stop at this VSync packet, from 1
   std::optional<std::uint64_t> until{};            ///< stop after this drawing command, from 1
@@ -133,6 +135,8 @@ struct ReplayOptions {
   std::function<bool(std::uint64_t words)> keep_going{};
   /// Only these packets; frames and commands are counted from the first of them.
   std::size_t first_packet = 0, end_packet = static_cast<std::size_t>(-1);
+  /// Where the frames of a z-buffer end; nullptr: Frames(dump), found anew for every replay with a z-buffer.
+  const Frames* frames = nullptr;
   std::uint32_t end_words = 0;  ///< and so many words of packet `end_packet`, if it is one of a port
 };
 
@@ -141,8 +145,8 @@ struct ReplayEnd : gpu::FrameEnd {
   std::uint64_t first_frame = 0;  ///< from 1
 };
 
-/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). A frame
-/// lasts from VSync to VSync, or to where the replay stops.
+/// Feeds a checked dump to the GPU in its present state (a new one: VRAM zero, as after GP1(00h)). A z-buffer
+/// begins and ends its frames where `frames` says, or where the replay stops.
 ReplayEnd replay(const Dump& dump, gpu::Gpu& gpu, const ReplayOptions& options = {});
 
 }  // namespace dump

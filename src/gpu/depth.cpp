@@ -73,6 +73,34 @@ DepthConstants::DepthConstants(const DepthOptions& o)
 
 std::uint32_t DepthPlane::stored(int x, int y) const { return depth_of_key(options_, keys_[offset(x, y)]); }
 
-void DepthPlane::clear() { std::fill(keys_.begin(), keys_.end(), empty); }
+std::uint64_t DepthPlane::touched_bytes() const {
+  if (is_untouched()) return 0;
+  return static_cast<std::uint64_t>(touched_.right - touched_.left + 1) *
+         static_cast<std::uint64_t>(touched_.bottom - touched_.top + 1) * sizeof(std::uint32_t);
+}
+
+void DepthPlane::clear() {
+  for (int y = touched_.top; y <= touched_.bottom; ++y) {
+    std::fill_n(keys_.begin() + static_cast<std::ptrdiff_t>(offset(touched_.left, y)),
+                touched_.right - touched_.left + 1, empty);
+  }
+  touched_ = {};
+}
+
+void DepthPlane::clear(int x, int y, int width, int height) {
+  if (is_untouched()) return;
+  x &= Vram::width - 1;
+  const auto clear_columns = [this](int row, int begin, int end) {
+    const int from = std::max(begin, touched_.left), to = std::min(end, touched_.right + 1);
+    if (from < to)
+      std::fill_n(keys_.begin() + static_cast<std::ptrdiff_t>(offset(from, row)), to - from, empty);
+  };
+  for (int i = 0; i < height; ++i) {
+    const int row = (y + i) & (Vram::height - 1);
+    if (row < touched_.top || row > touched_.bottom) continue;
+    clear_columns(row, x, std::min(x + width, Vram::width));
+    clear_columns(row, 0, x + width - Vram::width);
+  }
+}
 
 }  // namespace gpu

@@ -85,7 +85,8 @@ struct DepthConstants {
 };
 
 /// One key per VRAM pixel. A key orders as "nearer is smaller" for every format, reversed or not, so one
-/// unsigned comparison serves all; `empty` loses to every fragment, however far.
+/// unsigned comparison serves all; `empty` loses to every fragment, however far. A frame uses a small part of
+/// VRAM: what is cleared is the box that was drawn into.
 ///
 /// bits32 uses every code, so the two that are farthest share a key, which reads as far.
 class DepthPlane {
@@ -103,7 +104,23 @@ class DepthPlane {
   explicit DepthPlane(const DepthOptions& options)
       : options_(options), constants_(options), keys_(stride * Vram::height + Vram::padding, empty) {}
 
+  /// Before keys in these columns and rows are written, both ends included; rows from 512 on wrap.
+  void touch(int left, int top, int right, int bottom) {
+    touched_.left = std::min(touched_.left, left);
+    touched_.right = std::max(touched_.right, std::min(right, Vram::width - 1));
+    touched_.top = bottom < Vram::height ? std::min(touched_.top, top) : 0;
+    touched_.bottom = std::max(touched_.bottom, std::min(bottom, Vram::height - 1));
+  }
+  void touch_all() { touch(0, 0, Vram::width - 1, Vram::height - 1); }
+  /// No key was written since the last clear().
+  [[nodiscard]] bool is_untouched() const { return touched_.bottom < touched_.top; }
+  /// Bytes that clear() would write: the box round all that was touched.
+  [[nodiscard]] std::uint64_t touched_bytes() const;
+
+  /// Empties what was touched.
   void clear();
+  /// Empties a rectangle that wraps at both edges, as far as it was touched.
+  void clear(int x, int y, int width, int height);
   [[nodiscard]] const DepthOptions& options() const { return options_; }
   [[nodiscard]] const DepthConstants& constants() const { return constants_; }
   [[nodiscard]] std::uint32_t* keys() { return keys_.data(); }
@@ -115,8 +132,14 @@ class DepthPlane {
   [[nodiscard]] std::uint64_t bytes() const { return keys_.size() * sizeof(std::uint32_t); }
 
  private:
+  /// A box of pixels, all sides inside it.
+  struct Touched {
+    int left = Vram::width, top = Vram::height, right = -1, bottom = -1;
+  };
+
   DepthOptions options_;
   DepthConstants constants_;
+  Touched touched_;
   std::vector<std::uint32_t, LineAllocator<std::uint32_t>> keys_;
 };
 

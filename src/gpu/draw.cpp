@@ -252,7 +252,7 @@ const std::uint32_t* Gpu::upload(const std::uint32_t* at, const std::uint32_t* e
 /// Hands the annotation over to the polygon that follows it. What did not come is 0.
 void Gpu::take_depth() {
   Primitive& p = current_;
-  p.has_depth = p.has_fractions = false;
+  p.has_depth = p.has_fractions = p.has_texel_rests = false;
   if (const std::uint32_t seen = annotation_.seen; seen != 0) {
     namespace annotation = gp0::annotation;
     constexpr std::uint32_t low = annotation::depth_low - annotation::depth_high,
@@ -271,6 +271,9 @@ void Gpu::take_depth() {
       const std::uint32_t fractions = word(fraction + v);
       vertex.fx = static_cast<std::uint8_t>(annotation::FractionX::get(fractions));
       vertex.fy = static_cast<std::uint8_t>(annotation::FractionY::get(fractions));
+      vertex.du = static_cast<std::int8_t>(annotation::TexelRestU::get_signed(fractions));
+      vertex.dv = static_cast<std::int8_t>(annotation::TexelRestV::get_signed(fractions));
+      p.has_texel_rests = p.has_texel_rests || vertex.du != 0 || vertex.dv != 0;
     }
     annotation_.seen = 0;
   }

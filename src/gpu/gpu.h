@@ -99,6 +99,7 @@ class Gpu {
   /// Restarts command numbers. z-buffer: empties depths, forgets the queue. A canvas is placed over the
   /// frame, whose top left pixel is x, y of VRAM.
   void begin_frame(int x = 0, int y = 0);
+  /// In a frame, what a fill, copy or upload writes begins anew: its depths are emptied.
   /// z-buffer, of VRAM or of a canvas: draws the queued semi-transparent polygons, far to near.
   FrameEnd end_frame();
   /// nullptr without set_depth.

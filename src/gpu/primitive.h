@@ -14,6 +14,7 @@ struct Vertex {
   std::uint8_t r = 0, g = 0, b = 0;
   std::uint8_t u = 0, v = 0;
   std::uint8_t fx = 0, fy = 0;  ///< fractions of x and y in 1/256 pixel, from annotation words
+  std::int8_t du = 0, dv = 0;   ///< what u and v leave over, eighths of a texel, from annotation words
   std::uint32_t z = 0;          ///< view-space depth, unsigned 20.12, from annotation words
 };
 
@@ -34,6 +35,7 @@ struct Primitive {
   std::uint8_t vertex_count = 0;  ///< polygon 3, 4; line 2; copy 2 (destination, source); others 1 (corner)
   bool has_depth = false;         ///< z of the vertices counts
   bool has_fractions = false;     ///< fx, fy of the vertices count
+  bool has_texel_rests = false;   ///< du, dv of the vertices count: some is not 0
   std::int32_t width = 0, height = 0;  ///< rectangle, fill, copy, upload: pixels
   std::array<Vertex, 4> vertices{};
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::array<std::uint32_t, 4> magic{0x4554544f, 0x50472d52, 0x54532d55,
                                              0x00455441};  // OTTER-GPU-STATE
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 constexpr std::size_t head_bytes = 8 * 4, size_at = 5 * 4;
 constexpr std::size_t vram_bytes = Vram::size * sizeof(std::uint16_t);
 constexpr std::size_t keys_bytes = Vram::size * sizeof(std::uint32_t);
@@ -52,6 +52,7 @@ void fields(auto& a, auto& vertex) requires requires { vertex.fx; }
   a.number("y of a vertex", vertex.y, -2048, 2047);
   for (auto* byte : {&vertex.r, &vertex.g, &vertex.b, &vertex.u, &vertex.v, &vertex.fx, &vertex.fy})
     a.number("a colour, texture coordinate or fraction", *byte, 0, 255);
+  for (auto* rest : {&vertex.du, &vertex.dv}) a.number("the rest of a texture coordinate", *rest, -8, 7);
   a.word(vertex.z);
 }
 
@@ -66,6 +67,7 @@ void fields(auto& a, auto& primitive) requires requires { primitive.vertex_count
   a.number("the number of vertices", primitive.vertex_count, 0, 4);
   a.number("the mark of depth", primitive.has_depth, 0, 1);
   a.number("the mark of fractions", primitive.has_fractions, 0, 1);
+  a.number("the mark of rests", primitive.has_texel_rests, 0, 1);
   a.number("a width", primitive.width, 0, Vram::width);
   a.number("a height", primitive.height, 0, Vram::height);
   for (auto& vertex : primitive.vertices) fields(a, vertex);
@@ -113,7 +115,7 @@ void fields(StateReader& a, DepthQueue& queue) {
     a.count("the number of palettes", count, sizeof(DepthQueue::Palette));
     palettes.resize(count);
     for (auto& palette : palettes) a.block(palette);
-    constexpr std::size_t least_bytes = 4 * (4 + 7 + 6 + 4 * 10 + 2);
+    constexpr std::size_t least_bytes = 4 * (4 + 7 + 7 + 4 * 12 + 2);
     a.count("the number of queued polygons", count, least_bytes);
     entries.resize(count);
     for (DepthQueue::Entry& entry : entries) {
@@ -209,6 +211,7 @@ struct Gpu::Saved {
     if (!gpu.depth_) return;
     gpu.depth_->clear();
     if (has_depth == 0 || gpu.depth_->options() != options) return;
+    gpu.depth_->touch_all();
     StateReader a(keys);
     for (int y = 0; y < Vram::height; ++y)
       a.block(std::span(gpu.depth_->keys() + DepthPlane::offset(0, y), std::size_t{Vram::width}));

@@ -24,14 +24,17 @@ void for_each_piece(int x, int y, int count, F&& f) {
   if (before_edge < count) f(0, y, before_edge, count - before_edge);
 }
 
-/// A piece under mask bits or watched: pixel by pixel.
+/// A piece under mask bits, watched, or over depths that it makes void: pixel by pixel where it must be.
 void store_carefully(const Surface& surface, const DrawState& state, std::size_t place,
                      const std::uint16_t* pixels, int count) {
   const Watch watch{surface.trace, surface.draw, 0};
   std::uint16_t* to = surface.vram.pixels().data() + place;
-  if (state.mask == 0 && surface.trace != nullptr && !surface.trace->keep_history) {
+  const int x = static_cast<int>(place % Vram::width), y = static_cast<int>(place / Vram::width);
+  if (state.mask == 0 && (surface.trace == nullptr || !surface.trace->keep_history)) {
     std::copy_n(pixels, count, to);
-    watch.note_row(static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(count));
+    if (surface.depth != nullptr) surface.depth->clear(x, y, count, 1);
+    if (surface.trace != nullptr)
+      watch.note_row(static_cast<std::uint32_t>(place), static_cast<std::uint32_t>(count));
     return;
   }
   for (int i = 0; i < count; ++i, ++to, ++place) {
@@ -42,11 +45,13 @@ void store_carefully(const Surface& surface, const DrawState& state, std::size_t
           {.pixel = static_cast<std::uint32_t>(place), .before = *to, .after = pixel, .fragment = pixel});
     }
     *to = pixel;
+    if (surface.depth != nullptr) surface.depth->clear(x + i, y, 1, 1);
   }
 }
 
 bool is_plain(const Surface& surface, const DrawState& state) {
-  return surface.trace == nullptr && state.mask == 0;
+  return surface.trace == nullptr && state.mask == 0 &&
+         (surface.depth == nullptr || surface.depth->is_untouched());
 }
 
 }  // namespace
@@ -73,7 +78,7 @@ void fill_rectangle(const Surface& surface, const Primitive& primitive) {
   const Vertex& corner = primitive.vertices[0];
   const int width = primitive.width, height = primitive.height;
   const bool wraps = corner.x + width > Vram::width || corner.y + height > Vram::height;
-  if (!wraps && surface.trace == nullptr && primitive.state.skipped_rows == SkippedRows::none) {
+  if (!wraps && is_plain(surface, DrawState{}) && primitive.state.skipped_rows == SkippedRows::none) {
     operations().fill(&surface.vram.at(corner.x, corner.y), width, height, value);
     return;
   }

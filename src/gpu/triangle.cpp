@@ -170,6 +170,10 @@ void draw_triangle(const Surface& surface, const Primitive& primitive, Pass pass
   if (surface.limits != nullptr)
     upper = restrict_to(list, *surface.limits, primitive.state, corners[core], upper);
   if (list.count == 0) return;
+  if (pass == Pass::opaque) {
+    const Box box = drawn_box(primitive.state, corners, list);
+    surface.depth->touch(box.left, box.top, box.right, box.bottom);
+  }
   bool in_order = false;
   if (mode.surface.texture != TexelFormat::none) {
     in_order = samples_what_it_draws(primitive.state, drawn_box(primitive.state, corners, list));

@@ -28,13 +28,6 @@ inline constexpr std::array<std::string_view, 8> cause_names{
 inline constexpr std::size_t cause_count = cause_names.size();
 inline std::string_view name(Cause cause) { return cause_names[static_cast<std::size_t>(cause)]; }
 
-/// What decided the order of fragments.
-enum class Order : std::uint8_t {
-  list,   ///< the list: visibility ot and sorted, dumps. Draws whose bucket is known have keys
-  depth,  ///< a z-buffer
-  exact,  ///< bsp: a wrong pixel has no cause, it is a bug
-};
-
 /// A set of causes.
 class CauseSet {
  public:
@@ -50,8 +43,9 @@ struct WrongPixel {
   std::uint32_t pixel = 0;  ///< y * 1024 + x in VRAM
   std::uint32_t winner = nobody,
                 owner = nobody;  ///< draws; BlendOrder: the layer on top, and the one it hides
-  bool is_blend = false;         ///< the opaque owner is right
-  CauseSet causes;               ///< empty with Order::exact
+  std::uint8_t winner_half = 0, owner_half = 0;  ///< 1: the second triangle of a quad
+  bool is_blend = false;                         ///< the opaque owner is right
+  CauseSet causes;                               ///< empty with Order::exact
 };
 
 /// Fills in `causes` of every wrong pixel.

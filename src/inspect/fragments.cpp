@@ -24,6 +24,23 @@ exact::InversePlane plane(const Primitive& p, std::size_t half, bool with_fracti
 
 }  // namespace
 
+Hides hides(const gpu::Event& event, const gpu::Primitive& draw) {
+  if (event.rejected || event.blended || has_truth(draw)) return Hides::nothing;
+  return draw.kind <= gpu::Kind::line ? Hides::covers : Hides::erases;
+}
+
+Hides hides(const gpu::Event& event, const gpu::Primitive& draw, Order order) {
+  const Hides what = hides(event, draw);
+  return what == Hides::covers && order != Order::depth ? Hides::erases : what;
+}
+
+bool is_folded(std::span<const Fragment> at_pixel, std::uint32_t draw) {
+  const auto has = [&](std::uint8_t half) {
+    return std::ranges::any_of(at_pixel, [&](const Fragment& f) { return f.draw == draw && f.half == half; });
+  };
+  return has(0) && has(1);
+}
+
 Surfaces::Surfaces(const gpu::Trace& trace) {
   first_.reserve(trace.draws.size());
   for (const Primitive& p : trace.draws) {
@@ -64,19 +81,36 @@ double Surfaces::depth(const Fragment& fragment, std::uint32_t pixel) const {
   return 1 / surface.plane.estimate(at.x, at.y).value;
 }
 
-Fragments::Fragments(const gpu::Trace& trace) : first_(Vram::size + 1) {
+Fragments::Fragments(const gpu::Trace& trace, Order order) : first_(Vram::size + 1) {
   std::vector<bool> counts(trace.draws.size());
   std::transform(trace.draws.begin(), trace.draws.end(), counts.begin(), has_truth);
-  for (const gpu::Event& event : trace.history) {
-    if (counts[event.draw]) ++first_[event.pixel + 1];
+  std::vector<std::uint32_t> erased(Vram::size), covered(Vram::size);  // events before these are
+  for (std::uint32_t i = 0; i < trace.history.size(); ++i) {
+    const gpu::Event& event = trace.history[i];
+    if (counts[event.draw]) {
+      ++first_[event.pixel + 1];
+      continue;
+    }
+    switch (hides(event, trace.draws[event.draw], order)) {
+      case Hides::erases:
+        erased[event.pixel] = i;
+        first_[event.pixel + 1] = 0;
+        break;
+      case Hides::covers:
+        covered[event.pixel] = i;
+        break;
+      case Hides::nothing:
+        break;
+    }
   }
   for (std::size_t pixel = 0; pixel < Vram::size; ++pixel) first_[pixel + 1] += first_[pixel];
   fragments_.resize(first_.back());
   auto next = first_;
-  for (const gpu::Event& event : trace.history) {
-    if (!counts[event.draw]) continue;
-    fragments_[next[event.pixel]++] = {event.draw, event.depth,   event.fragment,
-                                       event.half, event.blended, event.rejected};
+  for (std::uint32_t i = 0; i < trace.history.size(); ++i) {
+    const gpu::Event& event = trace.history[i];
+    if (!counts[event.draw] || i < erased[event.pixel]) continue;
+    fragments_[next[event.pixel]++] = {event.draw,    event.depth,    event.fragment,          event.half,
+                                       event.blended, event.rejected, i < covered[event.pixel]};
   }
 }
 

@@ -13,15 +13,36 @@ namespace inspect {
 
 inline constexpr std::uint32_t nobody = 0xffffffff;  ///< "no draw" wherever a draw number stands
 
+/// What decided the order of fragments.
+enum class Order : std::uint8_t {
+  list,   ///< the list: visibility ot and sorted, dumps. Draws whose bucket is known have keys
+  depth,  ///< a z-buffer
+  exact,  ///< bsp: a wrong pixel has no cause, it is a bug
+};
+
+/// What becomes of the fragments drawn before an event, at its pixel.
+enum class Hides : std::uint8_t {
+  nothing,
+  covers,  ///< an opaque layer: they are not seen any more, but a z-buffer goes on comparing with their depth
+  erases,  ///< a fill, copy or upload: depth begins anew as well
+};
+[[nodiscard]] Hides hides(const gpu::Event& event, const gpu::Primitive& draw);
+/// The same; list orders compare nothing, so there what is covered is gone.
+[[nodiscard]] Hides hides(const gpu::Event& event, const gpu::Primitive& draw, Order order);
+
 /// One polygon at one pixel.
 struct Fragment {
-  std::uint32_t draw = 0;    ///< index into Trace::draws
-  std::uint32_t depth = 0;   ///< z-buffer: the key it was tested with (nearer is smaller)
-  std::uint16_t colour = 0;  ///< before blending
-  std::uint8_t half = 0;     ///< 1: second triangle of a quad
-  bool blends = false;       ///< lets through what is behind it
-  bool rejected = false;     ///< lost the depth test
+  std::uint32_t draw = nobody;  ///< index into Trace::draws
+  std::uint32_t depth = 0;      ///< z-buffer: the key it was tested with (nearer is smaller)
+  std::uint16_t colour = 0;     ///< before blending
+  std::uint8_t half = 0;        ///< 1: second triangle of a quad
+  bool blends = false;          ///< lets through what is behind it
+  bool rejected = false;        ///< lost the depth test
+  bool covered = false;         ///< an opaque layer hides it; judged is what was drawn after that
 };
+
+/// Both triangles of a draw are at one pixel: a quad that folds over itself.
+[[nodiscard]] bool is_folded(std::span<const Fragment> at_pixel, std::uint32_t draw);
 
 /// The planes of 1/z of all triangles of a trace.
 class Surfaces {
@@ -56,11 +77,12 @@ class Surfaces {
   std::vector<Surface> surfaces_;
 };
 
-/// The fragments of every VRAM pixel, in the order in which they were drawn.
+/// The fragments of every VRAM pixel, in the order in which they were drawn; those that were erased are left
+/// out, so covered ones, if there are any, come first.
 class Fragments {
  public:
   /// Needs a trace that kept its history.
-  explicit Fragments(const gpu::Trace& trace);
+  explicit Fragments(const gpu::Trace& trace, Order order = Order::list);
 
   [[nodiscard]] std::span<const Fragment> at(std::uint32_t pixel) const {
     return std::span(fragments_).subspan(first_[pixel], first_[pixel + 1] - first_[pixel]);

@@ -45,6 +45,9 @@ class Historian {
     lines_.push_back(format("pixel (%d,%d) of frame %u, VRAM (%u,%u)", x, y, report_.frame,
                             pixel_ % gpu::Vram::width, pixel_ / gpu::Vram::width));
     for (const gpu::Event& event : trace_.history) {
+      if (event.pixel == pixel_) all_.push_back(as_fragment(event));
+    }
+    for (const gpu::Event& event : trace_.history) {
       if (event.pixel == pixel_) tell(event);
     }
     if (lines_.size() == 1) lines_.emplace_back("  nothing was drawn here");
@@ -56,15 +59,21 @@ class Historian {
   [[nodiscard]] std::string name(std::uint32_t draw) const {
     return id(report_.frame, draw_id(trace_, draw));
   }
-  [[nodiscard]] double depth(std::uint32_t draw) const {
-    const auto found =
-        std::find_if(fragments_.begin(), fragments_.end(), [&](const Fragment& f) { return f.draw == draw; });
-    return found == fragments_.end() ? 0 : surfaces_.depth(*found, pixel_);
+  /// With the half of a quad that folds over itself here.
+  [[nodiscard]] std::string name(const Fragment& f) const {
+    return name(f.draw) + half_name(is_folded(all_, f.draw), f.half);
+  }
+  [[nodiscard]] std::string at_depth(const Fragment& f) const {
+    return f.draw == nobody ? name(f) : name(f) + format(" at depth %.4f", surfaces_.depth(f, pixel_));
+  }
+  static Fragment as_fragment(const gpu::Event& e) {
+    return {e.draw, e.depth, e.fragment, e.half, e.blended, e.rejected, false};
   }
 
   void tell(const gpu::Event& event) {
     const Primitive& p = trace_.draws[event.draw];
-    std::string line = format("  %zu. %s %s ", lines_.size(), name(event.draw).c_str(), kind_of(p).c_str());
+    const Fragment f = as_fragment(event);
+    std::string line = format("  %zu. %s %s ", lines_.size(), name(f).c_str(), kind_of(p).c_str());
     if (event.rejected) {
       line += format("lost the depth test with %04X", event.fragment);
     } else if (event.blended) {
@@ -72,23 +81,44 @@ class Historian {
     } else {
       line += format("wrote %04X over %04X", event.after, event.before);
     }
+    if (!event.rejected) blended_over_ = event.blended ? blended_over_ + 1 : 0;
+    begin_anew(event, p);
     if (p.kind == Kind::polygon && p.has_depth) {
-      const Fragment f{event.draw, event.depth, event.fragment, event.half, event.blended, event.rejected};
       fragments_.push_back(f);
+      ++all_of_depth_;
       line += format(", depth %.4f", surfaces_.depth(f, pixel_));
       if (event.depth != 0) line += format(", stored key %u", event.depth);
     }
     lines_.push_back(std::move(line));
   }
 
+  /// What the event hides is not judged any more.
+  void begin_anew(const gpu::Event& event, const Primitive& p) {
+    if (hides(event, p) == Hides::nothing) return;
+    background_ = event.draw;
+    hidden_ = hidden_ || !fragments_.empty();
+    if (hides(event, p, report_.order) == Hides::erases) fragments_.clear();
+    for (Fragment& f : fragments_) f.covered = true;
+  }
+
+  /// What lies under the polygons that are judged.
+  [[nodiscard]] std::string background() const {
+    if (background_ == nobody) return "what was there before the frame";
+    const std::string kind = kind_of(trace_.draws[background_]);
+    return name(background_) + (kind == "upload" ? ", an " : ", a ") + kind;
+  }
+  [[nodiscard]] std::string shown(const Fragment& f) const {
+    return f.draw == nobody ? background() : at_depth(f);
+  }
+
   void verdict() {
-    if (fragments_.empty()) {
+    if (all_of_depth_ == 0) {
       lines_.emplace_back("  no polygon with depth is here: nothing to judge");
       return;
     }
     const Verdict v = judge(fragments_, pixel_, surfaces_);
     if (v.is_right()) {
-      lines_.push_back("  right: shows " + name(v.winner));
+      lines_.push_back("  right: " + what_is_right(v));
       return;
     }
     const auto wrong = std::find_if(report_.wrong.begin(), report_.wrong.end(),
@@ -96,21 +126,35 @@ class Historian {
     const auto cause = wrong == report_.wrong.end() ? std::nullopt : wrong->causes.first();
     std::string line = "  wrong: ";
     if (!v.shows_owner) {
-      line += format("shows %s at depth %.4f, should show %s at depth %.4f", name(v.winner).c_str(),
-                     depth(v.winner), name(v.owner).c_str(), depth(v.owner));
+      line += "shows " + shown(v.winner) + ", should show " + at_depth(v.owner);
     } else {
-      line += format("shows %s, but %s at depth %.4f was drawn over %s at depth %.4f", name(v.winner).c_str(),
-                     name(v.over).c_str(), depth(v.over), name(v.under).c_str(), depth(v.under));
+      line += "shows " + (v.winner.draw == nobody ? background() : name(v.winner)) + ", but " +
+              shown(v.over) + (v.over.draw == nobody ? " hides " : " was drawn over ") + at_depth(v.under);
     }
     if (cause) line.append(": ").append(inspect::name(*cause));
     lines_.push_back(std::move(line));
+  }
+
+  [[nodiscard]] std::string what_is_right(const Verdict& v) const {
+    const std::string over = blended_over_ == 0 ? "" : format(" under %zu blended over it", blended_over_);
+    const bool is_erased = background_ != nobody && trace_.draws[background_].kind > Kind::line;
+    const std::string hidden = is_erased ? "erased" : "covered by a layer";
+    if (v.winner.draw != nobody) {
+      return "shows " + name(v.winner) + over +
+             (hidden_ ? "; what was there before " + background() + ", is " + hidden : "");
+    }
+    return "shows " + background() + over + (hidden_ ? "; what was there before it is " + hidden : "");
   }
 
   const Report& report_;
   const gpu::Trace& trace_;
   std::uint32_t pixel_;
   Surfaces surfaces_;
-  std::vector<Fragment> fragments_;
+  std::vector<Fragment> all_, fragments_;  // of every event; those that are judged, as in Fragments
+  std::size_t all_of_depth_ = 0;           // fragments of polygons with depth
+  std::uint32_t background_ = nobody;      // the last draw that hid what was before it
+  bool hidden_ = false;                    // and there was something
+  std::size_t blended_over_ = 0;           // since the last opaque write
   std::vector<std::string> lines_;
 };
 

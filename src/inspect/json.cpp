@@ -32,6 +32,8 @@ Json pairs(const Report& report) {
                     {"owner_bucket", number_or_null(pair.owner.bucket)},
                     {"winner_depth", pair.winner_depth},
                     {"owner_depth", pair.owner_depth},
+                    {"winner_half", pair.winner_half + 1},
+                    {"owner_half", pair.owner_half + 1},
                     {"example",
                      {static_cast<int>(pair.example % gpu::Vram::width) - report.picture.x,
                       static_cast<int>(pair.example / gpu::Vram::width) - report.picture.y}}});

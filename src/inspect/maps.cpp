@@ -141,12 +141,12 @@ base::Picture ids(const Report& report, const gpu::Trace& trace) {
 
 base::Picture truth_image(const Report& report, const gpu::Trace& trace,
                           std::span<const std::uint16_t> vram) {
-  const Fragments fragments(trace);
+  const Fragments fragments(trace, report.order);
   Surfaces surfaces(trace);
   base::Picture image = with_legend(report.picture, 0);
   for_each_pixel(report.picture,
                  [&](int x, int y, std::uint32_t pixel) { image.at(x, y) = widen(vram[pixel]); });
-  // What lies under the first fragment with depth, and what was drawn without depth after the last one.
+  // What lies under the first fragment that is judged, and what was drawn without depth after the last one.
   std::vector<std::uint16_t> under(Vram::size);
   std::vector<std::vector<const gpu::Event*>> over(report.wrong.size());
   std::vector<std::uint32_t> index(Vram::size, nobody);
@@ -156,7 +156,10 @@ base::Picture truth_image(const Report& report, const gpu::Trace& trace,
     const std::uint32_t i = index[event.pixel];
     if (i == nobody) continue;
     const gpu::Primitive& p = trace.draws[event.draw];
-    if (p.kind == gpu::Kind::polygon && p.has_depth) {
+    if (hides(event, p) != Hides::nothing) {
+      started[event.pixel] = false;
+      over[i].clear();
+    } else if (p.kind == gpu::Kind::polygon && p.has_depth) {
       if (!started[event.pixel]) under[event.pixel] = event.before;
       started[event.pixel] = true;
       over[i].clear();
@@ -184,7 +187,7 @@ base::Picture truth_image(const Report& report, const gpu::Trace& trace,
 }
 
 base::Picture depth_image(const Report& report, const gpu::Trace& trace) {
-  const Fragments fragments(trace);
+  const Fragments fragments(trace, report.order);
   Surfaces surfaces(trace);
   std::vector<double> nearness(Vram::size);
   double nearest = 0;

@@ -61,20 +61,14 @@ BucketCensus census(const gpu::Trace& trace) {
 }
 
 WrongPixel as_wrong(const Verdict& verdict, std::uint32_t pixel) {
-  if (!verdict.shows_owner) return {pixel, verdict.winner, verdict.owner, false, {}};
-  return {pixel, verdict.over, verdict.under, true, {}};
+  const bool is_blend = verdict.shows_owner;
+  const Fragment &winner = is_blend ? verdict.over : verdict.winner,
+                 &owner = is_blend ? verdict.under : verdict.owner;
+  return {pixel, winner.draw, owner.draw, winner.half, owner.half, is_blend, {}};
 }
 
-// The depth of a draw at a pixel: that of its nearest fragment there.
-double depth_at(const Fragments& fragments, const Surfaces& surfaces, std::uint32_t draw,
-                std::uint32_t pixel) {
-  double nearest = 0;
-  for (const Fragment& f : fragments.at(pixel)) {
-    if (f.draw != draw) continue;
-    const double depth = surfaces.depth(f, pixel);
-    if (nearest == 0 || depth < nearest) nearest = depth;
-  }
-  return nearest;
+double depth_at(const Surfaces& surfaces, std::uint32_t draw, std::uint8_t half, std::uint32_t pixel) {
+  return draw == nobody ? 0 : surfaces.depth({.draw = draw, .half = half}, pixel);
 }
 
 std::vector<WrongPair> find_pairs(const Report& report, const gpu::Trace& trace, const Fragments& fragments,
@@ -90,8 +84,12 @@ std::vector<WrongPair> find_pairs(const Report& report, const gpu::Trace& trace,
       pair.has_cause = cause.has_value();
       pair.cause = cause.value_or(Cause::blend_order);
       pair.example = wrong.pixel;
-      pair.winner_depth = depth_at(fragments, surfaces, wrong.winner, wrong.pixel);
-      pair.owner_depth = depth_at(fragments, surfaces, wrong.owner, wrong.pixel);
+      pair.winner_depth = depth_at(surfaces, wrong.winner, wrong.winner_half, wrong.pixel);
+      pair.owner_depth = depth_at(surfaces, wrong.owner, wrong.owner_half, wrong.pixel);
+      pair.winner_half = wrong.winner_half;
+      pair.owner_half = wrong.owner_half;
+      pair.winner_is_folded = is_folded(fragments.at(wrong.pixel), wrong.winner);
+      pair.owner_is_folded = is_folded(fragments.at(wrong.pixel), wrong.owner);
     }
   }
   std::vector<WrongPair> pairs;
@@ -133,7 +131,7 @@ Report inspect(const gpu::Trace& trace, const Options& options) {
   report.buckets = census(trace);
   report.lint = lint_draws(trace, options.frame);
 
-  const Fragments fragments(trace);
+  const Fragments fragments(trace, options.order);
   Surfaces surfaces(trace);
   report.fragments = fragments.size();
   for (std::uint32_t pixel = 0; pixel < Vram::size; ++pixel) {

@@ -49,7 +49,11 @@ struct WrongPair {
   bool has_cause = true;  ///< false for visibility bsp
   std::uint64_t pixels = 0;
   std::uint32_t example = 0;                 ///< one of them
-  double winner_depth = 0, owner_depth = 0;  ///< there, in view-space units, rounded
+  double winner_depth = 0, owner_depth = 0;  ///< there, in view-space units, rounded; 0 for nobody
+  /// There: which triangle of a quad is meant, 1 the second one.
+  std::uint8_t winner_half = 0, owner_half = 0;
+  /// There: both triangles of the draw cover the pixel, so that its half has to be named.
+  bool winner_is_folded = false, owner_is_folded = false;
 };
 
 /// How full the buckets are. `known` is false for a list without a table: nothing here counts then.
@@ -103,6 +107,8 @@ Report inspect(const gpu::Trace& trace, const Options& options);
 /// Draw `draw` of a trace, or nobody.
 DrawId draw_id(const gpu::Trace& trace, std::uint32_t draw);
 
+/// " (second half)" of a draw whose quad is folded over itself; empty if it is not.
+std::string half_name(bool is_folded, std::uint8_t half);
 /// The draw's number, "3:17:512" or "3:17" (gpu/number.h); "background" for nobody.
 std::string id(std::uint32_t frame, const DrawId& draw);
 

@@ -48,9 +48,11 @@ void pairs(std::string& out, const Report& report) {
   print(out, "  worst pairs (seen / should be)\n");
   for (std::size_t i = 0; i < report.pairs.size() && i < worst_pairs_shown; ++i) {
     const WrongPair& pair = report.pairs[i];
+    const auto winner = id(report.frame, pair.winner) + half_name(pair.winner_is_folded, pair.winner_half);
+    const auto owner = id(report.frame, pair.owner) + half_name(pair.owner_is_folded, pair.owner_half);
     print(out, "    %7llu px  %-16s %s / %s, depth %.2f / %.2f at (%d,%d)\n", count(pair.pixels),
-          pair.has_cause ? name(pair.cause).data() : "(a bug)", id(report.frame, pair.winner).c_str(),
-          id(report.frame, pair.owner).c_str(), pair.winner_depth, pair.owner_depth,
+          pair.has_cause ? name(pair.cause).data() : "(a bug)", winner.c_str(), owner.c_str(),
+          pair.winner_depth, pair.owner_depth,
           static_cast<int>(pair.example % gpu::Vram::width) - report.picture.x,
           static_cast<int>(pair.example / gpu::Vram::width) - report.picture.y);
   }
@@ -83,6 +85,11 @@ DrawId draw_id(const gpu::Trace& trace, std::uint32_t draw) {
   if (draw == nobody) return {};
   const auto number = gpu::number_of(0, trace.draws[draw]);
   return {draw, number.command, number.bucket};
+}
+
+std::string half_name(bool is_folded, std::uint8_t half) {
+  if (!is_folded) return {};
+  return half == 0 ? " (first half)" : " (second half)";
 }
 
 std::string id(std::uint32_t frame, const DrawId& draw) {

@@ -26,12 +26,12 @@ base::Picture Presenter::show(const gpu::Gpu& gpu, const scene::Knobs& knobs) {
     if (knobs.antialias.kind != AntialiasKind::fxaa) return shown(gpu);
     return canvas::fxaa(shown(gpu));
   }
-  auto picture = canvas::resolve(*gpu.canvas(), knobs.aa_filter);
+  auto picture = canvas::resolve(*gpu.canvas(), knobs.aa_filter, knobs.aa_space);
   switch (knobs.antialias.kind) {
     case AntialiasKind::fxaa:
       return canvas::fxaa(picture);
     case AntialiasKind::taa:
-      return accumulator_.add(picture);
+      return accumulator_.add(picture, knobs.aa_space);
     default:
       return picture;
   }

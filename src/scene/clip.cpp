@@ -56,7 +56,10 @@ ClipVertex Clipper::point_on(const ClipVertex& a, const ClipVertex& b, double t,
   out.position = p;
   const auto between = [f = static_cast<float>(t)](float from, float to) { return from + (to - from) * f; };
   for (std::size_t i = 0; i < 3; ++i) out.colour[i] = between(a.colour[i], b.colour[i]);
-  for (std::size_t i = 0; i < 2; ++i) out.uv[i] = between(a.uv[i], b.uv[i]);
+  for (std::size_t i = 0; i < 2; ++i) {
+    out.uv[i] = between(a.uv[i], b.uv[i]);
+    out.exact_uv[i] = between(a.exact_uv[i], b.exact_uv[i]);
+  }
   return out;
 }
 

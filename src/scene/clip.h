@@ -21,7 +21,8 @@ namespace scene {
 struct ClipVertex {
   glm::dvec3 position{0.0};           ///< view space
   std::array<float, 3> colour{};      ///< 0..255
-  std::array<float, 2> uv{};          ///< 0..255
+  std::array<float, 2> uv{};          ///< 0..255, whole at the corners of a face
+  std::array<float, 2> exact_uv{};    ///< with the rests
   bool is_projectable = false;        ///< project() says so: no plane cuts it off
   std::uint32_t vertex = 0xffffffff;  ///< vertex of the model it was, none for a new one
 };

@@ -36,6 +36,15 @@ Content::Content(const World& world, int w, int h, int n)
       largest[instance.mesh] = std::max(largest[instance.mesh], scale_of(instance.model));
   }
   for (std::uint32_t i = 0; i < largest.size(); ++i) add_model(world, i, largest[i]);
+  shown = {false, false, false};
+  for (const Model& model : models) {
+    for (const ModelFace& face : model.faces) {
+      const PacketMaterial& material = materials[face.material];
+      shown.polygons = true;
+      shown.textured = shown.textured || material.texture != nullptr;
+      shown.gouraud = shown.gouraud || (face.gouraud && !material.raw);
+    }
+  }
 }
 
 void Content::add_model(const World& world, std::uint32_t index, double largest) {

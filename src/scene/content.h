@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/model.h"
+#include "scene/plan.h"
 #include "scene/submit.h"
 #include "scene/texture.h"
 #include "scene/world.h"
@@ -25,6 +26,7 @@ struct Content {
   TexturePack pack;
   std::vector<PacketMaterial> materials;
   std::vector<Model> models;  ///< one per mesh
+  Shown shown;                ///< what they have
   std::vector<std::string>
       report;  ///< for the user, once: scale, textures that were shrunk, repeats that were split
 

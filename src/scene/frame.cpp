@@ -55,7 +55,8 @@ struct FrameBuilder::State {
   }
 
   [[nodiscard]] Plan plan_of(const Knobs& knobs, Annotate annotate, Pieces pieces) const {
-    return plan_frame(knobs, {world, content.units, content.pack.uses_windows, annotate, pieces});
+    return plan_frame(knobs,
+                      {world, content.units, content.pack.uses_windows, content.shown, annotate, pieces});
   }
 
   // Everything that goes into the list of this frame, in the order in which it is inserted.

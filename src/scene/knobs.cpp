@@ -46,6 +46,8 @@ inline constexpr std::array words<Colour>{string_view("15"), string_view("15-dit
 template <>
 inline constexpr std::array words<AaFilter>{string_view("box"), string_view("tent"), string_view("gauss")};
 template <>
+inline constexpr std::array words<AaSpace>{string_view("stored"), string_view("linear")};
+template <>
 inline constexpr std::array words<Fog>{string_view("vertex"), string_view("pixel")};
 template <>
 inline constexpr std::array words<bool>{string_view("off"), string_view("on")};
@@ -244,6 +246,9 @@ constexpr std::array rows{
     KnobInfo{"antialias", "none|ssaa-NxN|rotated-N|random-N|msaa-N|fxaa|taa", "how edges are smoothed",
              get_antialias, set_antialias},
     KnobInfo{"aa-filter", "box|tent|gauss", "weights of the samples of a pixel", WORD(aa_filter)},
+    KnobInfo{"aa-space", "stored|linear",
+             "samples are averaged as they are stored, or as light (sRGB decoded and encoded again)",
+             WORD(aa_space)},
     KnobInfo{"fog", "vertex|pixel", "where depth cueing is computed", WORD(fog)},
     KnobInfo{"resolution", "1|2|4|8", "internal resolution, times the console's", get_int<&Knobs::resolution>,
              set_resolution},

@@ -34,6 +34,7 @@ enum class TextureAddress : std::uint8_t { affine, perspective };
 using gpu::canvas::Filter;
 enum class Colour : std::uint8_t { bits15, bits15_dither, bits24 };
 using AaFilter = gpu::canvas::Reconstruction;
+using AaSpace = gpu::canvas::AverageOf;
 enum class Fog : std::uint8_t { vertex, pixel };
 
 enum class AntialiasKind : std::uint8_t { off, ssaa, rotated, random, msaa, fxaa, taa };
@@ -79,6 +80,7 @@ struct Knobs {
   Colour colour = Colour::bits15_dither;
   Antialias antialias{};
   AaFilter aa_filter = AaFilter::box;
+  AaSpace aa_space = AaSpace::stored;
   Fog fog = Fog::vertex;
   int resolution = 1;  ///< 1, 2, 4 or 8 times the console's
   int width = 320;     ///< 256, 320, 368, 512 or 640

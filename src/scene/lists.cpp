@@ -33,8 +33,20 @@ std::size_t encode(const Primitive& p, const PacketStyle& style, std::span<std::
 }
 
 std::size_t encode_annotation(const Primitive& p, const PacketStyle& style, std::span<std::uint32_t> out) {
-  if (!style.depth || p.count == 2) return 0;
-  return ot::encode(depth_of(p, style.fraction_mask, style.fractions), out);
+  if (p.count == 2) return 0;
+  const auto rests = [&p] {
+    return std::any_of(p.corner.begin(), p.corner.begin() + static_cast<std::ptrdiff_t>(p.count),
+                       [](const Corner& c) { return c.rest.u != 0 || c.rest.v != 0; });
+  };
+  const bool has_rests = style.texel_rests && p.material->texture != nullptr && rests();
+  ot::DepthAnnotation words = depth_of(p, style.fraction_mask, style.fractions || has_rests);
+  words.has_depth = style.depth || (style.depth_of_shaded && is_shaded(p));
+  if (!words.has_depth && !words.has_fractions) return 0;
+  for (std::size_t k = 0; k < p.count && has_rests; ++k) {
+    words.du[k] = p.corner[k].rest.u;
+    words.dv[k] = p.corner[k].rest.v;
+  }
+  return ot::encode(words, out);
 }
 
 void BucketSizes::add(const Primitive& p, std::uint32_t bucket) {

@@ -56,6 +56,18 @@ glm::vec3 face_normal(const Mesh& mesh, const Face& face) {
 constexpr std::array<std::size_t, 4> triangle_order{0, 2, 1, 3}, quad_order{0, 3, 1, 2};
 const auto& console_order(const Face& face) { return face.is_quad() ? quad_order : triangle_order; }
 
+// The whole periods of a texture that a face lies in.
+struct Periods {
+  double base;  // of the smallest coordinate
+  bool is_one;  // and no more than that one; files hold 1.0000001 for 1
+  explicit Periods(std::span<const double> coordinates) {
+    const auto [least, most] = std::ranges::minmax(coordinates);
+    constexpr double little = 1e-4;
+    base = std::floor(least + little);
+    is_one = most - base <= 1 + little;
+  }
+};
+
 class Maker {
  public:
   Maker(const Mesh& mesh, std::span<const Material> materials, std::span<const StoredTexture> textures,
@@ -169,16 +181,18 @@ class Maker {
   static void texture_coordinates(const Face& face, const StoredTexture& texture,
                                   const std::array<std::size_t, 4>& order, ModelFace& out) {
     const std::size_t n = face.corners();
-    double base_u = face.uv[0].x;
-    double base_v = face.uv[0].y;
-    for (std::size_t k = 1; k < n; ++k) {
-      base_u = std::min(base_u, static_cast<double>(face.uv[k].x));
-      base_v = std::min(base_v, static_cast<double>(face.uv[k].y));
-    }
+    std::array<double, 4> us{}, vs{};
     for (std::size_t k = 0; k < n; ++k) {
-      const auto uv = face.uv[order[k]];
-      out.uv[k] = {texture.u.coordinate(uv.x, std::floor(base_u)),
-                   texture.v.coordinate(uv.y, std::floor(base_v))};
+      us[k] = face.uv[order[k]].x;
+      vs[k] = face.uv[order[k]].y;
+    }
+    const Periods periods_u(std::span<const double>(us.data(), n)),
+        periods_v(std::span<const double>(vs.data(), n));
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto u = texture.u.coordinate(us[k], periods_u.base, periods_u.is_one);
+      const auto v = texture.v.coordinate(vs[k], periods_v.base, periods_v.is_one);
+      out.uv[k] = {u.whole, v.whole};
+      out.rest[k] = {u.rest, v.rest};
     }
   }
 

@@ -15,11 +15,17 @@
 
 namespace scene {
 
+/// What a corner's u and v leave over, eighths of a texel.
+struct TexelRest {
+  std::int8_t u = 0, v = 0;
+};
+
 /// A face in the console's order: clockwise on the screen when seen from its front, quads as a Z.
 struct ModelFace {
   std::array<std::uint32_t, 4> vertex{};  ///< [3] = none: a triangle
   std::array<std::uint32_t, 4> colour{};  ///< indices into the colours of the frame
   std::array<ot::Uv, 4> uv{};
+  std::array<TexelRest, 4> rest{};
   std::uint32_t material = 0;
   std::uint32_t source = 0;  ///< face of the scene's mesh
   bool gouraud = false;

@@ -32,7 +32,8 @@ void choose_samples(const Antialias& antialias, canvas::Options& options) {
       options.layers = canvas::rotated_grid(antialias.samples);
       break;
     case AntialiasKind::random:
-      options.layers = canvas::random_samples(antialias.samples);
+      options.layers = canvas::cell_middles(antialias.samples);
+      options.scatter_seed = 1;
       break;
     case AntialiasKind::msaa:
       options.samples = canvas::rotated_grid(antialias.samples);
@@ -61,18 +62,28 @@ std::uint32_t draw_mode_of(const Knobs& knobs) {
   return word[0];
 }
 
-bool needs_fractions(const Knobs& knobs) { return knobs.position != Position::integer; }
+bool needs_fractions(const Knobs& knobs, const Shown& shown) {
+  return knobs.position != Position::integer && shown.polygons;
+}
 
-bool needs_depth(const Knobs& knobs) {
-  return knobs.visibility == Visibility::zbuffer || knobs.texture == TextureAddress::perspective ||
-         knobs.fog == Fog::pixel || needs_fractions(knobs);
+bool needs_perspective(const Knobs& knobs, const Shown& shown) {
+  return knobs.texture == TextureAddress::perspective && (shown.textured || shown.gouraud);
+}
+
+Filter needed_filter(const Knobs& knobs, const Shown& shown) {
+  return shown.textured ? knobs.filter : Filter::nearest;
 }
 
 PacketStyle style_of(const Knobs& knobs, const PlanInput& input) {
   PacketStyle style;
   style.windows = input.windows;
-  style.depth = input.annotate == Annotate::always || needs_depth(knobs);
-  style.fractions = needs_fractions(knobs);  // depth is that of the corners as drawn
+  style.fractions = needs_fractions(knobs, input.shown);
+  style.depth = input.annotate == Annotate::always || knobs.visibility == Visibility::zbuffer ||
+                fog(knobs, input.world, input.units_per_world).has_value();
+  style.depth_of_shaded = needs_perspective(knobs, input.shown);
+  // The texture's own knobs ask for exact coordinates; others leave them as the console has them.
+  style.texel_rests =
+      input.shown.textured && (style.depth_of_shaded || needed_filter(knobs, input.shown) != Filter::nearest);
   if (style.fractions) style.fraction_mask = fraction_mask(knobs.position);
   style.draw_mode = draw_mode_of(knobs);
   return style;
@@ -120,16 +131,18 @@ std::optional<gpu::DepthOptions> depth_options(const Knobs& knobs) {
   return options;
 }
 
-std::optional<canvas::Options> canvas_options(const Knobs& knobs, const World& world,
-                                              double units_per_world) {
+std::optional<canvas::Options> canvas_options(const Knobs& knobs, const World& world, double units_per_world,
+                                              const Shown& shown) {
   canvas::Options o;
   o.scale = knobs.resolution;
-  o.fraction_bits = bits_of(knobs.position);
-  o.perspective = knobs.texture == TextureAddress::perspective;
-  o.filter = knobs.filter;
+  if (needs_fractions(knobs, shown)) o.fraction_bits = bits_of(knobs.position);
+  o.perspective = needs_perspective(knobs, shown);
+  o.filter = needed_filter(knobs, shown);
   o.colour = knobs.colour == Colour::bits24 ? canvas::Colour::bits24 : canvas::Colour::bits15;
-  o.fog = fog(knobs, world, units_per_world);
-  choose_samples(knobs.antialias, o);
+  if (shown.polygons) {
+    o.fog = fog(knobs, world, units_per_world);
+    choose_samples(knobs.antialias, o);
+  }
   if (o == canvas::Options{}) return std::nullopt;
   o.width = knobs.width;
   o.height = knobs.height;
@@ -146,17 +159,20 @@ Plan plan_frame(const Knobs& knobs, const PlanInput& input) {
   plan.order_in_bucket = knobs.bucket_order == BucketOrder::fifo ? ot::Order::fifo : ot::Order::lifo;
   plan.key = knobs.key;
   plan.transform = knobs.transform;
-  if (knobs.subdivide.by != SubdivideBy::pieces) plan.halving = knobs.subdivide;
+  const Shown& shown = plan.shown = input.shown;
+  // What has one colour all over looks the same in pieces.
+  if (knobs.subdivide.by != SubdivideBy::pieces && (shown.textured || shown.gouraud))
+    plan.halving = knobs.subdivide;
   plan.style = style_of(knobs, input);
   // Splitting needs the depths, though the words it orders do not.
-  plan.wanted = {plan.style.depth || plan.sorting == Sorting::split, plan.style.fractions,
-                 input.world.depth_cue.on && knobs.fog == Fog::vertex};
-  plan.fraction_mask = fraction_mask(knobs.position);
+  plan.wanted = {plan.style.depth || plan.style.depth_of_shaded || plan.sorting == Sorting::split,
+                 plan.style.fractions, input.world.depth_cue.on && knobs.fog == Fog::vertex};
+  plan.fraction_mask = needs_fractions(knobs, shown) ? fraction_mask(knobs.position) : std::uint8_t{0};
   plan.split_scale = input.pieces == Pieces::snapped ? 1 : knobs.resolution;
   plan.default_depth_of_bucket =
       knobs.visibility == Visibility::zbuffer && knobs.without_depth == WithoutDepth::bucket;
   plan.refuses_without_depth = knobs.without_depth == WithoutDepth::error;
-  plan.canvas = canvas_options(knobs, input.world, input.units_per_world);
+  plan.canvas = canvas_options(knobs, input.world, input.units_per_world, shown);
   if (!plan.canvas) plan.depth = depth_options(knobs);
   return plan;
 }

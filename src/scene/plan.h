@@ -16,13 +16,24 @@ namespace scene {
 
 struct Primitive;
 
-/// What every packet of a frame has in common.
+/// What the faces of a world have that a knob may be about.
+struct Shown {
+  bool polygons = true;
+  bool textured = true;
+  bool gouraud = true;  ///< colours that change across a face
+  bool operator==(const Shown&) const = default;
+};
+
+/// What every packet of a frame has in common, and whose annotation nodes hold what.
 struct PacketStyle {
   bool windows = false;               ///< textured primitives set their texture window
-  bool depth = false;                 ///< annotation nodes with depths
-  bool fractions = false;             ///< and with fractions,
+  bool depth = false;                 ///< depths of all polygons,
+  bool depth_of_shaded = false;       ///< or of those with a texture or colours that change
+  bool fractions = false;             ///< fractions of all polygons,
   std::uint8_t fraction_mask = 0xff;  ///< of which these bits count
+  bool texel_rests = false;           ///< of textured ones what whole texture coordinates leave over
   std::uint32_t draw_mode = 0;  ///< E1h word without page and blend: dither, draw to the displayed field
+  bool operator==(const PacketStyle&) const = default;
 };
 
 /// Bucket (or sort key) of a primitive: 0..length-1, far is high.
@@ -30,6 +41,7 @@ struct BucketRule {
   std::uint32_t length = 1;
   std::int64_t bias = 0;
   std::int64_t bias_step = 1;  ///< of a material's bias
+  bool operator==(const BucketRule&) const = default;
   /// As the formula gives it.
   [[nodiscard]] std::int64_t wanted(const Primitive& p) const;
   /// Limited to the table.
@@ -60,7 +72,10 @@ struct Plan {
   bool refuses_without_depth = true;       ///< one that has none refuses the frame
   std::optional<gpu::DepthOptions> depth;  ///< the z-buffer beside VRAM; nothing: none, or the canvas' own
   std::optional<gpu::canvas::Options> canvas;  ///< nothing: VRAM shows the same
+  Shown shown;
 
+  /// Frames of equal plans are drawn alike: a knob that changes no plan is not called for.
+  bool operator==(const Plan&) const = default;
   [[nodiscard]] std::int32_t buffer_y(std::uint32_t frame) const {
     return height == 240 && frame % 2 == 1 ? 240 : 0;
   }
@@ -71,6 +86,7 @@ struct PlanInput {
   const World& world;  ///< as it is at the time of the frame
   double units_per_world = 1;
   bool windows = false;  ///< some texture needs a texture window
+  Shown shown{};
   Annotate annotate = Annotate::when_needed;
   Pieces pieces = Pieces::limited;
 };
@@ -79,9 +95,10 @@ struct PlanInput {
 /// The depth stage that the knobs ask for; nothing unless visibility is zbuffer.
 [[nodiscard]] std::optional<gpu::DepthOptions> depth_options(const Knobs& knobs);
 
-/// The canvas that the knobs ask for; nothing where the console's own frame buffer shows the same. FXAA alone
-/// needs none: it filters the finished picture.
+/// The canvas that the knobs ask for; nothing where the console's own frame buffer shows the same, as with a
+/// knob about what is not there. FXAA alone needs none: it filters the finished picture.
 [[nodiscard]] std::optional<gpu::canvas::Options> canvas_options(const Knobs& knobs, const World& world,
-                                                                 double units_per_world);
+                                                                 double units_per_world,
+                                                                 const Shown& shown = {});
 
 }  // namespace scene

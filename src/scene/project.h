@@ -31,6 +31,7 @@ struct Wanted {
   bool depth = false;      ///< z_20_12
   bool fractions = false;  ///< fraction_x, fraction_y
   bool fog = false;        ///< ir0
+  bool operator==(const Wanted&) const = default;
 };
 
 /// Structure of arrays, one entry a vertex; arrays that are not wanted stay empty.

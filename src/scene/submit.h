@@ -14,6 +14,7 @@
 #include "scene/frame.h"
 #include "scene/halve.h"
 #include "scene/knobs.h"
+#include "scene/model.h"
 #include "scene/project.h"
 #include "scene/texture.h"
 
@@ -39,6 +40,7 @@ struct Corner {
   std::uint32_t z_20_12 = 0;
   gte::Colour colour;
   ot::Uv uv;
+  TexelRest rest;
 };
 
 /// A polygon (3 or 4 corners, quads as a Z) or a line (2).
@@ -107,7 +109,7 @@ class Submitter {
       return submit_cut(face, p);
     }
     if (s_.halver != nullptr && is_halved(face)) return submit_cut(face, p);
-    for (std::size_t k = 0; k < n; ++k) p.corner[k] = corner_of(face.vertex[k], face.colour[k], face.uv[k]);
+    for (std::size_t k = 0; k < n; ++k) p.corner[k] = corner_of(face, k);
     p.count = n;
     if (n == 3) {
       if (!faces_us(p.corner[0], p.corner[1], p.corner[2], *p.material)) return drop(Drop::back_face);
@@ -136,12 +138,12 @@ class Submitter {
     if ((a & b & outcode::sides) != 0) return drop(Drop::outside);
     if (((a | b) & outcode::unprojectable) != 0) {
       ClipPolygon in;
-      for (std::size_t k = 0; k < 2; ++k) in.add(clip_vertex(line.vertex[k], line.colour[k], {}));
+      for (std::size_t k = 0; k < 2; ++k) in.add(clip_vertex(line.vertex[k], line.colour[k], {}, {}));
       if (!clip(in)) return;
       p.corner[0] = corner_of(clipped_.vertex[0]);
       p.corner[1] = corner_of(clipped_.vertex[1]);
     } else {
-      for (std::size_t k = 0; k < 2; ++k) p.corner[k] = corner_of(line.vertex[k], line.colour[k], {});
+      for (std::size_t k = 0; k < 2; ++k) p.corner[k] = corner_of(line.vertex[k], line.colour[k]);
     }
     p.count = 2;
     emit(p);
@@ -154,7 +156,8 @@ class Submitter {
     Drop why = Drop::back_face;
     for (std::size_t half = 0; half < (face.is_quad() ? 2U : 1U); ++half) {
       ClipPolygon in;
-      for (const auto k : halves[half]) in.add(clip_vertex(face.vertex[k], face.colour[k], face.uv[k]));
+      for (const auto k : halves[half])
+        in.add(clip_vertex(face.vertex[k], face.colour[k], face.uv[k], face.rest[k]));
       const Beyond beyond = s_.clipper->wholly_beyond(in.corners());
       if (beyond != Beyond::nothing) {
         why = beyond == Beyond::near_plane  ? Drop::near_plane
@@ -227,7 +230,14 @@ class Submitter {
             c.sxy.y * 256 + (c.fraction_y & s_.fraction_mask)};
   }
 
-  [[nodiscard]] Corner corner_of(std::uint32_t vertex, std::uint32_t colour, ot::Uv uv) const {
+  [[nodiscard]] Corner corner_of(const ModelFace& face, std::size_t k) const {
+    Corner c = corner_of(face.vertex[k], face.colour[k]);
+    c.uv = face.uv[k];
+    c.rest = face.rest[k];
+    return c;
+  }
+
+  [[nodiscard]] Corner corner_of(std::uint32_t vertex, std::uint32_t colour) const {
     const Projected& from = *s_.projected;
     Corner c;
     c.sxy = from.sxy[vertex];
@@ -238,16 +248,17 @@ class Submitter {
       c.fraction_y = from.fraction_y[vertex];
     }
     c.colour = s_.colours[colour];
-    c.uv = uv;
     return c;
   }
 
-  [[nodiscard]] ClipVertex clip_vertex(std::uint32_t vertex, std::uint32_t colour, ot::Uv uv) const {
+  [[nodiscard]] ClipVertex clip_vertex(std::uint32_t vertex, std::uint32_t colour, ot::Uv uv,
+                                       TexelRest rest) const {
     ClipVertex out;
     const gte::Colour& c = s_.colours[colour];
     out.position = s_.placement->view_position(vertex);
     out.colour = {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
     out.uv = {static_cast<float>(uv.u), static_cast<float>(uv.v)};
+    out.exact_uv = {out.uv[0] + static_cast<float>(rest.u) / 8, out.uv[1] + static_cast<float>(rest.v) / 8};
     out.is_projectable = (s_.projected->code[vertex] & outcode::unprojectable) == 0;
     out.vertex = vertex;
     return out;
@@ -257,7 +268,7 @@ class Submitter {
     const auto rounded = [](float value) { return static_cast<std::uint8_t>(value + 0.5F); };
     Corner c;
     if (v.is_projectable) {
-      c = corner_of(v.vertex, 0, {});
+      c = corner_of(v.vertex, 0);
     } else {
       const ProjectedPoint point = project_point(*s_.placement, v.position);
       ++stats_.vertices;
@@ -269,6 +280,8 @@ class Submitter {
     }
     c.colour = {rounded(v.colour[0]), rounded(v.colour[1]), rounded(v.colour[2]), 0};
     c.uv = {rounded(v.uv[0]), rounded(v.uv[1])};
+    c.rest = {texel_rest(static_cast<double>(v.exact_uv[0]), c.uv.u),
+              texel_rest(static_cast<double>(v.exact_uv[1]), c.uv.v)};
     return c;
   }
 
@@ -290,5 +303,9 @@ class Submitter {
 [[nodiscard]] ot::Line line_of(const Primitive& p);
 [[nodiscard]] ot::DepthAnnotation depth_of(const Primitive& p, std::uint8_t fraction_mask,
                                            bool has_fractions);
+/// It has colours or texture coordinates that change across it.
+[[nodiscard]] inline bool is_shaded(const Primitive& p) {
+  return p.material->texture != nullptr || p.gouraud;
+}
 
 }  // namespace scene

@@ -265,12 +265,18 @@ std::string size_text(int width, int height) { return std::to_string(width) + "x
 
 }  // namespace
 
-std::uint8_t TexelAxis::coordinate(double t, double base) const {
-  const double within = repeats ? t - base : t;
-  if (!(within > 0)) return static_cast<std::uint8_t>(origin);
-  const int most = windowed ? 255 : texels - 1;
-  const double texel = std::floor(within * texels);
-  return static_cast<std::uint8_t>(std::min(255, origin + (texel < most ? static_cast<int>(texel) : most)));
+std::int8_t texel_rest(double exact, int whole) {
+  return static_cast<std::int8_t>(std::clamp(std::floor((exact - whole) * 8 + 0.5), -8.0, 7.0));
+}
+
+TexelCoordinate TexelAxis::coordinate(double t, double base, bool is_one) const {
+  const bool is_clamped = is_one || !windowed;
+  const double given = repeats ? t - base : t;
+  const double within = given > 0 ? (is_clamped ? std::min(given, 1.0) : given) : 0;
+  const double exact = std::min(within * texels - 0.5, 255.5);
+  const int most = std::min(is_clamped ? texels - 1 : 255, 255 - origin);
+  const int whole = std::clamp(static_cast<int>(std::floor(exact + 0.5)), 0, most);
+  return {static_cast<std::uint8_t>(origin + whole), texel_rest(exact, whole)};
 }
 
 Texture scaled(const Texture& texture, int halvings) {

@@ -22,6 +22,16 @@
 
 namespace scene {
 
+/// A coordinate as packets hold it, and what it leaves over: whole + rest / 8 counts texels, texel i having
+/// its middle at i. The console rounds to the nearest whole texel, and knows no rest.
+struct TexelCoordinate {
+  std::uint8_t whole = 0;
+  std::int8_t rest = 0;  ///< eighths, -8..7
+  bool operator==(const TexelCoordinate&) const = default;
+};
+/// The rest that brings `whole` as near to `exact` as eighths can.
+[[nodiscard]] std::int8_t texel_rest(double exact, int whole);
+
 /// One axis of a stored texture.
 struct TexelAxis {
   int texels = 1;         ///< one period
@@ -31,8 +41,10 @@ struct TexelAxis {
 
   /// Whole periods that a polygon may span: what 8-bit coordinates can hold.
   [[nodiscard]] int periods() const { return windowed && texels < 128 ? 255 / texels : 1; }
-  /// 8-bit coordinate of `t` (0..1 is one period) for a polygon whose smallest t has the whole part `base`.
-  [[nodiscard]] std::uint8_t coordinate(double t, double base) const;
+  /// Of `t` (0..1 is one period) for a polygon whose smallest t has the whole part `base`. The left edge of
+  /// texel i of N is at t = i / N: u = t N - 1/2, as near to it as a whole number can be. `is_one`: the
+  /// polygon spans no more than one picture, and its edge must not show the next one's first texel.
+  [[nodiscard]] TexelCoordinate coordinate(double t, double base, bool is_one) const;
 };
 
 struct StoredTexture {

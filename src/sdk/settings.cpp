@@ -60,9 +60,9 @@ base::Result<Settings> parse_settings(int argc, const char* const* argv) {
   line.add_option("--shown", shown, "the display area, or the buffer that was drawn into last [display]")
       ->type_name("drawn|display")
       ->check(CLI::IsMember({"drawn", "display"}).description(""));
-  app::Arguments(line).knobs(
-      s.knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far",
-                "position", "texture", "filter", "colour", "antialias", "aa-filter", "resolution"});
+  app::Arguments(line).knobs(s.knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",
+                                       "near", "far", "position", "texture", "filter", "colour", "antialias",
+                                       "aa-filter", "aa-space", "resolution"});
   try {
     line.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {

@@ -54,10 +54,11 @@ TEST_SUITE("otter") {
     CHECK(mentions(rendered.out, "two.png: lines.dat frame 2, 320x240, 2 commands"));
     CHECK(folder.otter("replay lines.dat --frame 2 -o two2.png").status == 0);
     CHECK(contents(folder.path / "two.png") == contents(folder.path / "two2.png"));
-    const auto inspected = folder.otter("inspect lines.dat --frame 3 --pixel 5,30");
+    const auto inspected = folder.otter("inspect lines.dat --frame-by vsync --frame 3 --pixel 5,30");
     CHECK(inspected.status == 0);
     CHECK(mentions(inspected.out, "3:2 line wrote 03E0 over 2000"));
-    for (const std::string words : {"render lines.dat -o x.png --frame 4", "inspect lines.dat --frame 4"}) {
+    for (const std::string words :
+         {"render lines.dat -o x.png --frame 4", "inspect lines.dat --frame-by vsync --frame 4"}) {
       const auto refused = folder.otter(words);
       CHECK(refused.status == 2);
       CHECK(is_one_line(refused.err));

@@ -1,49 +1,17 @@
-// Whole frames at 320x240: each demo, and a solid of 70,000 faces, with the time of each stage. Absolute
-// times wander on a busy machine; what is compared is `fills`, the frame's time in fills of the same picture,
-// measured in the same run.
+// Whole frames at 320x240: each demo, and a solid of 70,000 faces, with the time of each stage. Times on the
+// wall wander on a busy machine; process time wanders less.
 
 #include <benchmark/benchmark.h>
 
-#include <chrono>
-#include <cstdio>
 #include <string>
 
 #include "demos/demos.h"
 #include "gpu/gpu.h"
 #include "ot/main_ram.h"
-#include "ot/packet.h"
 #include "scene/angle.h"
 #include "scene/pipeline.h"
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-void fill_once(gpu::Gpu& gpu) {
-  std::array<std::uint32_t, 3> words{};
-  ot::encode(ot::Fill{{10, 20, 30}, 0, 0, 320, 240}, words);
-  gpu.gp0(words);
-}
-
-// The best of many, in ms: what a fill costs when nothing disturbs it.
-double fill_ms() {
-  static const double best = [] {
-    gpu::Gpu gpu;
-    double least = 1e9;
-    for (int round = 0; round < 2000; ++round) {
-      const auto start = Clock::now();
-      fill_once(gpu);
-      least = std::min(least, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
-    }
-    return least;
-  }();
-  return best;
-}
-
-void fill(benchmark::State& state) {
-  gpu::Gpu gpu;
-  while (state.KeepRunning()) fill_once(gpu);
-}
 
 // A torus of 264 x 265 quads, lit: 69,960 faces that share their vertices.
 scene::Scene torus() {
@@ -93,11 +61,8 @@ void frames(benchmark::State& state, const scene::Scene& scene, const scene::Kno
   builder.upload(gpu);
   scene::FrameStats sum;
   std::uint32_t number = 0;
-  double best = 1e9;
   while (state.KeepRunning()) {
-    const auto start = Clock::now();
     const auto stats = scene::render_frame(builder, scene::frame_time(number++ % 600), knobs, ram, gpu);
-    best = std::min(best, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     if (!stats) return state.SkipWithError(stats.error().text.c_str());
     sum.gte_ms += stats->gte_ms;
     sum.ot_ms += stats->ot_ms;
@@ -111,7 +76,6 @@ void frames(benchmark::State& state, const scene::Scene& scene, const scene::Kno
   state.counters["raster_ms"] = sum.raster_ms / n;
   state.counters["faces"] = sum.faces;
   state.counters["drawn"] = sum.primitives;
-  state.counters["fills"] = best / fill_ms();
 }
 
 void add(const std::string& name, const scene::Scene& scene) {
@@ -129,7 +93,6 @@ void add(const std::string& name, const scene::Scene& scene) {
 }  // namespace
 
 int main(int count, char** arguments) {
-  benchmark::RegisterBenchmark("fill 320x240", fill)->Unit(benchmark::kMillisecond)->MinTime(0.2);
   for (const auto& entry : demos::all()) add(std::string(entry.name), demos::make(entry));
   add("torus of 69,960 faces", torus());
   benchmark::Initialize(&count, arguments);

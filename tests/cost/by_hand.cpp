@@ -72,7 +72,7 @@ cost::Row row(const cost::Axis* axis, cost::Direction direction, const std::stri
   r.axis = axis;
   r.direction = direction;
   r.setting = setting;
-  r.ms = ms;
+  r.ms = r.ratio = ms;
   r.errors.texel.mean = error;
   r.is_console = is_console;
   return r;

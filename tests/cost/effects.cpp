@@ -9,6 +9,7 @@
 
 #include "cost/axes.h"
 #include "cost/packet_edit.h"
+#include "cost/touched.h"
 #include "demos/demos.h"
 #include "scenes.h"
 
@@ -135,5 +136,94 @@ TEST_SUITE("cost") {
     for (const auto* key : {"name", "primitives", "pixels", "ms"}) CHECK(json["effects"][0].contains(key));
     CHECK(json["kernels"].is_array());
     CHECK(json["buffers"][0].contains("bytes"));
+  }
+
+  TEST_CASE(
+      "prices along a chain and what is left add up to the whole, whatever the effects do to each other") {
+    // Two effects that share a canvas: each alone away saves little, both away save all.
+    cost::Chain chain([] { return 100.0; });
+    chain.add({.name = "first"}, [] { return 90.0; });
+    chain.add({.name = "second"}, [] { return 20.0; });
+    for (int round = 0; round < 4; ++round) chain.run(round, [] { return true; });
+    std::vector<cost::Effect> effects;
+    chain.report(effects);
+    REQUIRE(effects.size() == 2);
+    CHECK(effects[0].ms == 10);
+    CHECK(effects[1].ms == 70);
+    CHECK(chain.whole() == 100);
+    CHECK(chain.remainder() == 20);
+    CHECK(effects[0].ms + effects[1].ms + chain.remainder() == chain.whole());
+    CHECK_FALSE(effects[0].is_within_noise());
+  }
+
+  TEST_CASE("prices of a scene's effects and what is left add up to the frame, counted in bytes") {
+    cost::Subject subject(runway(true), 0);
+    const auto bytes = [&](const scene::Knobs& knobs) -> base::Result<double> {
+      const auto drawn = subject.draw(knobs);
+      REQUIRE(drawn);
+      const auto touched = cost::touched(subject, knobs, *drawn);
+      REQUIRE(touched);
+      return static_cast<double>(touched->total());
+    };
+    std::vector<scene::Knobs> less{{}};
+    for (const auto& knob :
+         {std::pair{"visibility", "zbuffer"}, {"texture", "perspective"}, {"colour", "24"}}) {
+      auto more = less.front();
+      REQUIRE(scene::set_knob(more, knob.first, knob.second));
+      less.insert(less.begin(), more);
+    }
+    cost::Chain chain([&] { return bytes(less[0]); });
+    for (std::size_t k = 1; k < less.size(); ++k) {
+      chain.add({.name = std::to_string(k)}, [&, k] { return bytes(less[k]); });
+    }
+    for (int round = 0; round < 3; ++round) chain.run(round, [] { return true; });
+    std::vector<cost::Effect> effects;
+    chain.report(effects);
+    double sum = chain.remainder();
+    for (const auto& effect : effects) {
+      CHECK(effect.spread == 0);
+      CHECK(effect.ms >= 0);
+      sum += effect.ms;
+    }
+    CHECK(sum == chain.whole());
+    CHECK(chain.remainder() == *bytes({}));
+  }
+
+  TEST_CASE("a price that is no larger than its spread is within noise, and none is printed below 0") {
+    cost::EffectReport report;
+    report.effects = {{.name = "slow", .ms = 2, .spread = 0.5}, {.name = "noise", .ms = -0.1, .spread = 0.3}};
+    const auto text = cost::to_text(report);
+    CHECK(text.find("-0.1") == std::string::npos);
+    CHECK(text.find("within noise") != std::string::npos);
+    const auto json = nlohmann::json::parse(cost::to_json(report));
+    CHECK(json["effects"][0]["within_noise"] == false);
+    CHECK(json["effects"][1]["within_noise"] == true);
+    CHECK(json["effects"][1]["ms"] == 0);
+  }
+
+  TEST_CASE("knobs about what is not there are listed as not needed, and no price is told of them") {
+    auto knobs = plain();
+    for (const auto& knob : {std::pair{"texture", "perspective"},
+                             {"filter", "mipmap-linear"},
+                             {"fog", "pixel"},
+                             {"depth", "32"},
+                             {"aa-filter", "tent"},
+                             {"aa-space", "linear"}}) {
+      REQUIRE(scene::set_knob(knobs, knob.first, knob.second));
+    }
+    const auto report = cost::find_effects(shards(true), 0, knobs, 1);
+    REQUIRE(report);
+    CHECK(report->not_needed == std::vector<std::string>{"depth 32", "texture perspective",
+                                                         "filter mipmap-linear", "aa-filter tent",
+                                                         "aa-space linear", "fog pixel"});
+    for (const auto& effect : report->effects) CHECK(effect.name == "colour 15");
+    CHECK(cost::to_text(*report).find("asked for, not needed\n  depth 32\n") != std::string::npos);
+    CHECK(report->buffers.size() == 1);
+
+    const auto foggy = cost::find_effects(runway(true), 0, knobs, 1);
+    REQUIRE(foggy);
+    CHECK(foggy->not_needed == std::vector<std::string>{"depth 32", "aa-filter tent", "aa-space linear"});
+    CHECK(find(*foggy, "fog pixel") != nullptr);
+    CHECK(find(*foggy, "depth cue (fog)") != nullptr);
   }
 }

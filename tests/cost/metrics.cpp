@@ -92,10 +92,34 @@ TEST_SUITE("cost") {
         row(position, cost::Direction::up, 1, 9), row(position, cost::Direction::up, 2, 9),
         row(position, cost::Direction::up, 3, 1), row(position, cost::Direction::down, 9, 9)};
     cost::mark_front(rows);
-    CHECK(rows[0].on_front);
-    CHECK_FALSE(rows[1].on_front);
-    CHECK(rows[2].on_front);
-    CHECK(rows[3].on_front);
+    CHECK(rows[0].is_best);
+    CHECK_FALSE(rows[1].is_best);
+    CHECK(rows[2].is_best);
+    CHECK(rows[3].is_best);
+  }
+
+  TEST_CASE("settings of an axis and combinations stand on one front, by the distance from the reference") {
+    const auto row = [](const cost::Axis* axis, cost::Direction direction, double ms, double distance) {
+      cost::Row r;
+      r.axis = axis;
+      r.direction = direction;
+      r.ms = ms;
+      r.knobs.buckets = static_cast<int>(ms);  // no two alike
+      r.errors.colour_rms = distance;
+      return r;
+    };
+    const auto* texture = cost::find_axis("texture");
+    std::vector<cost::Row> rows{row(nullptr, cost::Direction::cross, 4, 5),
+                                row(texture, cost::Direction::up, 3, 4),  // beats the combination
+                                row(texture, cost::Direction::down, 9, 1),
+                                row(nullptr, cost::Direction::cross, 1, 8)};
+    cost::mark_front(rows);
+    CHECK_FALSE(rows[0].on_front);
+    const auto front = cost::front_of(rows);
+    REQUIRE(front.size() == 3);
+    CHECK(front[0] == &rows[3]);
+    CHECK(front[1] == &rows[1]);
+    CHECK(front[2] == &rows[2]);
   }
 
   TEST_CASE("a heat map is black where pictures agree, white where a channel is as far as can be") {

@@ -9,8 +9,11 @@
 #include <optional>
 
 #include "cost/axes.h"
+#include "cost/errors.h"
 #include "cost/subject.h"
 #include "demos/demos.h"
+#include "inspect/report.h"
+#include "machine/machine.h"
 #include "scenes.h"
 
 using namespace cost_test;
@@ -126,8 +129,8 @@ std::optional<Colour> runway_mean(const Eye& eye, int x, int y) {
       const double u = (ray.x * t + half) / (2 * half);
       const double v = 1 - (t - 3) / 37;
       if (u < 0.02 || u > 0.98 || v < 0.02 || v > 0.98) return std::nullopt;
-      // Corners name the outermost of the 64 texels; between texels the picture is bilinear.
-      const double c = board_at(u * 63, v * 63);
+      // The middle of texel i is at (i + 1/2) / 64; between middles the picture is bilinear.
+      const double c = board_at(u * 64 - 0.5, v * 64 - 0.5);
       sum.r += c;
       sum.g += c;
       sum.b += 60;
@@ -219,5 +222,31 @@ TEST_SUITE("cost") {
     distance(drawn(scene, {{"colour", "15"}}), reference, &greatest);
     CHECK(greatest > 4);
     CHECK(greatest <= 8);
+  }
+
+  TEST_CASE("the share of wrong pixels is judged where the corners are drawn, as inspect judges it") {
+    const auto scene = demos::make(*demos::find("corridor"));
+    std::vector<std::uint64_t> counts;
+    for (const auto position : {"integer", "256"}) {
+      scene::Knobs knobs;
+      REQUIRE(scene::set_knob(knobs, "position", position));
+      cost::Subject subject(scene, 30);
+      REQUIRE(subject.draw(knobs));
+      cost::ErrorMeter meter(subject, {});
+      const auto errors = meter.measure(knobs);
+      REQUIRE(errors);
+
+      machine::Machine machine(scene);
+      gpu::Trace trace;
+      trace.keep_history = true;
+      machine.gpu().set_trace(&trace);
+      REQUIRE(machine.draw(0.5, knobs));
+      machine.gpu().set_trace(nullptr);
+      const auto report = inspect::inspect(trace, {});
+      CHECK(errors->wrong_pixels == report.wrong_pixels());
+      CHECK(errors->pixels_drawn == report.pixels_drawn);
+      counts.push_back(errors->wrong_pixels);
+    }
+    CHECK(counts[0] != counts[1]);  // so that the two can be told apart
   }
 }

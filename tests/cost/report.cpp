@@ -25,6 +25,12 @@ cost::SceneResult quick_sweep(std::vector<const cost::Axis*> axes, int stop_afte
   return *result;
 }
 
+std::string text_of(const cost::SceneResult& result) {
+  cost::Report report;
+  report.scenes = {result};
+  return cost::to_text(report);
+}
+
 }  // namespace
 
 TEST_SUITE("cost") {
@@ -100,6 +106,29 @@ TEST_SUITE("cost") {
     CHECK(html.find("var(--up)") != std::string::npos);
     CHECK(html.find("id='gp") == std::string::npos);
     CHECK(cost::to_text(report).find("15-dither") != std::string::npos);
+  }
+
+  TEST_CASE("no entry of the printed front is beaten by any row of the same report") {
+    const auto result = quick_sweep({cost::find_axis("texture"), cost::find_axis("antialias")});
+    const auto front = cost::front_of(result.rows);
+    REQUIRE(front.size() > 1);
+    const auto text = text_of(result);
+    for (const auto* entry : front) {
+      CHECK(text.find(entry->label() + "\n") != std::string::npos);
+      for (const auto& row : result.rows) {
+        CHECK_FALSE((row.ms < entry->ms && row.errors.colour_rms < entry->errors.colour_rms));
+      }
+    }
+  }
+
+  TEST_CASE("a report of a busy machine says so, one of a quiet machine does not") {
+    cost::SceneResult result;
+    result.rows.emplace_back().ms = 1;
+    for (const double noise : {0.05, 0.3}) {
+      result.noise = noise;
+      const auto text = text_of(result);
+      CHECK((text.find("the machine was busy") != std::string::npos) == (noise > 0.1));
+    }
   }
 
   TEST_CASE("base64 of a picture is a PNG") {

@@ -4,7 +4,6 @@
 
 #include <doctest/doctest.h>
 
-#include "gpu/depth.h"
 #include "scenes.h"
 
 using namespace cost_test;
@@ -50,10 +49,14 @@ TEST_SUITE("cost") {
     CHECK(console.filter == screen * (2 + 4));
     CHECK(console.list > 0);
 
-    SUBCASE("a z-buffer adds the plane that is cleared, and a key read and written for every pixel") {
+    SUBCASE(
+        "a z-buffer adds the box round the wall, which is cleared, and a key read and written for each "
+        "pixel") {
       const auto deep = touched_with(one_wall(), {{"visibility", "zbuffer"}});
       CHECK(deep.colour == console.colour);
-      CHECK(deep.depth - 8 * wall == gpu::DepthPlane(gpu::DepthOptions{}).bytes());
+      const auto cleared = deep.depth - 8 * wall;
+      CHECK(cleared >= 4 * wall);
+      CHECK(cleared <= 4 * (wall + 240));  // one column more
     }
     SUBCASE("a canvas has samples of four bytes, four times as many at twice the resolution") {
       const auto fine = touched_with(one_wall(), {{"colour", "24"}});

@@ -283,7 +283,7 @@ TEST_SUITE("door") {
       CHECK(std::string(otter_knob_help(count)).size() > 5);
       CHECK_FALSE(knob(g, otter_knob_name(count)).empty());
     }
-    CHECK(count == 14);
+    CHECK(count == 15);
     CHECK(otter_knob_name(-1) == nullptr);
   }
 

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "canvas_scene.h"
@@ -206,6 +207,100 @@ TEST_SUITE("canvas") {
       }
     }
     CHECK(std::sqrt(sum / pixels) < one / 2);
+  }
+
+  TEST_CASE("every pattern has its mean on the sample point, to 0.005 pixel") {
+    const auto mean_of = [](const std::vector<canvas::Point>& points) {
+      std::array<double, 2> sum{};
+      for (const auto& p : points) {
+        sum[0] += static_cast<double>(p.x);
+        sum[1] += static_cast<double>(p.y);
+      }
+      return std::max(std::abs(sum[0]), std::abs(sum[1])) / static_cast<double>(points.size()) / 256;
+    };
+    std::vector<canvas::Point> jitter;
+    for (int i = 0; i < canvas::jitter_length; ++i) jitter.push_back(canvas::temporal_jitter(i));
+    CHECK(mean_of(jitter) <= 0.005);
+    for (int n = 2; n <= 64; ++n) {
+      CAPTURE(n);
+      CHECK(mean_of(canvas::rotated_grid(n)) <= 0.005);
+      CHECK(mean_of(canvas::cell_middles(n)) <= 0.005);
+      for (std::uint32_t seed = 1; seed < 70; ++seed)
+        CHECK(mean_of(canvas::random_samples(n, seed)) <= 0.005);
+      if (n <= 8) CHECK(mean_of(canvas::regular_grid(n)) <= 0.005);
+    }
+  }
+
+  TEST_CASE("random samples lie one in each cell") {
+    for (const int n : {4, 7, 12}) {
+      const auto middles = canvas::cell_middles(n);
+      const auto samples = canvas::random_samples(n, 3);
+      for (std::size_t i = 0; i < samples.size(); ++i) {
+        // A cell is as wide as the middles lie apart; centring may move a sample by a fraction of that.
+        CHECK(std::abs(samples[i].x - middles[i].x) <= 128);
+        CHECK(std::abs(samples[i].y - middles[i].y) <= 256 / 2);
+      }
+    }
+    const auto four = canvas::random_samples(4, 9);
+    CHECK(four[0].x < four[1].x);
+    CHECK(four[0].y < four[2].y);
+  }
+
+  TEST_CASE("pixels with samples of their own: no shift of the picture, and an error that falls with N") {
+    const auto triangles = random_triangles(200);
+    double last = edge_error(target(), triangles);
+    for (const int n : {4, 16, 64}) {
+      auto options = layered(canvas::cell_middles(n));
+      options.scatter_seed = 1;
+      double shift_x = 0, shift_y = 0, sum = 0;
+      int edges = 0;
+      for (const auto& t : triangles) {
+        Studio studio(options);
+        const auto shown = picture(studio, t);
+        double weight = 0, x_sum = 0, y_sum = 0, exact_weight = 0, exact_x = 0, exact_y = 0;
+        for (int y = 0; y < side; ++y) {
+          for (int x = 0; x < side; ++x) {
+            const double exact = coverage(t, x, y);
+            const double seen = shown.at(x, y).r / 255.0;
+            weight += seen;
+            x_sum += seen * x;
+            y_sum += seen * y;
+            exact_weight += exact;
+            exact_x += exact * x;
+            exact_y += exact * y;
+            if (exact < 1e-9 || exact > 1 - 1e-9) continue;
+            sum += (seen - exact) * (seen - exact);
+            ++edges;
+          }
+        }
+        if (exact_weight < 100) continue;
+        shift_x += x_sum / weight - exact_x / exact_weight;
+        shift_y += y_sum / weight - exact_y / exact_weight;
+      }
+      CAPTURE(n);
+      const auto count = static_cast<double>(triangles.size());
+      CHECK(std::abs(shift_x / count) < 0.005);
+      CHECK(std::abs(shift_y / count) < 0.005);
+      const double error = std::sqrt(sum / edges);
+      CHECK(error < 0.75 * last);
+      last = error;
+    }
+  }
+
+  TEST_CASE("an upright edge shows other levels from row to row where pixels have samples of their own") {
+    const auto levels = [](std::uint32_t seed) {
+      auto options = layered(canvas::cell_middles(4));
+      options.scatter_seed = seed;
+      Studio studio(options);
+      const auto shown = picture(
+          studio, {Corner{20 * 256 + 60, -100 * 256, 0xffffff}, Corner{60 * 256, -100 * 256, 0xffffff},
+                   Corner{20 * 256 + 60, 300 * 256, 0xffffff}});
+      std::set<std::uint32_t> seen;
+      for (int y = 0; y < side; ++y) seen.insert(shown.at(20, y).r);
+      return seen.size();
+    };
+    CHECK(levels(0) == 1);
+    CHECK(levels(1) >= 2);
   }
 
   TEST_CASE("multi-sampling shades a pixel once, super-sampling once per sample") {

@@ -346,4 +346,48 @@ TEST_SUITE("canvas") {
       }
     }
   }
+
+  TEST_CASE("light of a stored byte is the sRGB curve, and comes back to the same byte") {
+    CHECK(canvas::to_light(0) == 0);
+    CHECK(canvas::to_light(255) == 65535);
+    CHECK(canvas::to_light(10) == 199);     // 10 / 255 / 12.92
+    CHECK(canvas::to_light(188) == 32957);  // ((188 / 255 + 0.055) / 1.055)^2.4 = 0.50289
+    for (std::uint32_t byte = 0; byte < 256; ++byte)
+      CHECK(canvas::from_light(canvas::to_light(byte)) == byte);
+    CHECK(canvas::from_light(32768) == 188);  // half the light of white
+  }
+
+  TEST_CASE("half of a pixel white is 128 of what is stored, and 188 in light") {
+    for (const auto colour : {canvas::Colour::bits15, canvas::Colour::bits24}) {
+      canvas::Options options{.width = 16, .height = 16};
+      options.colour = colour;
+      options.layers = canvas::regular_grid(2);
+      canvas_test::Studio studio(options);
+      studio.draw({0x02000000, 0, 16 | 16 << 16});
+      // Left of an edge through the middle of column 8: its two left samples.
+      studio.draw(canvas_test::polygon(0x20, {{-100 * 256, -100 * 256, 0xffffff},
+                                              {8 * 256, -100 * 256, 0xffffff},
+                                              {8 * 256, 300 * 256, 0xffffff}}));
+      const auto box = canvas::Reconstruction::box;
+      const auto red = [&](canvas::AverageOf average) {
+        const auto image = canvas::resolve(studio.canvas, box, average);
+        return static_cast<int>(image.at(8, 8).r);
+      };
+      CHECK(red(canvas::AverageOf::stored) == 128);
+      CHECK(red(canvas::AverageOf::light) == 188);
+    }
+  }
+
+  TEST_CASE("temporal accumulation averages light where it is asked to") {
+    canvas::Accumulator accumulator;
+    const base::Rgba black{0, 0, 0}, white{255, 255, 255};
+    base::Picture dark(2, 1, black), bright(2, 1, white);
+    dark.at(1, 0) = white;
+    bright.at(1, 0) = black;
+    accumulator.add(dark, canvas::AverageOf::light);
+    CHECK(accumulator.add(bright, canvas::AverageOf::light).at(0, 0).r == 188);
+    canvas::Accumulator stored;
+    stored.add(dark);
+    CHECK(stored.add(bright).at(0, 0).r == 128);
+  }
 }

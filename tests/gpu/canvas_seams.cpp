@@ -43,6 +43,10 @@ std::vector<Named> all_targets() {
   for (const int n : {2, 3, 4}) add(std::to_string(n) + "x ssaa", 1, canvas::regular_grid(n), {});
   add("rotated 5 at x2", 2, canvas::rotated_grid(5), {});
   add("random 8", 1, canvas::random_samples(8), {});
+  for (const int n : {4, 7}) {
+    add("scattered " + std::to_string(n), 1, canvas::cell_middles(n), {});
+    for (auto* target : {&list[list.size() - 2], &list.back()}) target->options.scatter_seed = 5;
+  }
   for (const int n : {2, 4, 8}) add(std::to_string(n) + "x msaa", 1, {{}}, canvas::rotated_grid(n));
   add("taa", 1, {canvas::temporal_jitter(3)}, {});
   return list;

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <memory>
+#include <random>
 #include <vector>
 
 #include "gpu/gpu.h"
@@ -337,5 +338,76 @@ TEST_SUITE("gpu") {
     CHECK(gpu.queue_bytes() == 0);
     gpu.set_depth(std::nullopt);
     CHECK(gpu.depth_bytes() == 0);
+  }
+
+  TEST_CASE("in a frame, depth begins anew under what a fill, a copy or an upload wrote") {
+    const Words fill{0x02000000, 0, at(16, 4)}, copy{0x80000000, at(32, 0), 0, at(8, 4)},
+        upload{0xa0000000, at(0, 0), at(2, 1), 0x11111111};
+    for (const Words& words : {fill, copy, upload}) {
+      const Bench bench(DepthOptions{});
+      bench.square(red, 100, 100);
+      CHECK_FALSE(bench.gpu->depth_plane()->is_empty(0, 0));
+      bench.gpu->gp0(words);
+      CHECK(bench.gpu->depth_plane()->is_empty(0, 0));
+      CHECK_FALSE(bench.gpu->depth_plane()->is_empty(0, 7));
+      bench.square(green, 200, 200);
+      CHECK(bench.pixel(0, 0) == 0x03e0);
+      CHECK(bench.pixel(0, 7) == 0x001f);
+    }
+  }
+
+  TEST_CASE("where mask bits refuse a copy, depth stays as it is") {
+    const Bench bench(DepthOptions{});
+    bench.gpu->gp0(0xe6000001);  // what is drawn sets bit 15
+    bench.square(red, 100, 100);
+    bench.gpu->gp0(Words{0xe6000002, 0x80000000, at(32, 0), 0, at(8, 8)});
+    CHECK(bench.pixel(0, 0) == 0x801f);
+    CHECK_FALSE(bench.gpu->depth_plane()->is_empty(0, 0));
+  }
+
+  TEST_CASE("a frame clears the depths that the frame before it drew, and no others") {
+    const Bench bench(DepthOptions{});
+    CHECK(bench.gpu->depth_plane()->touched_bytes() == 0);
+    bench.square(red, 100, 100);
+    const auto touched = bench.gpu->depth_plane()->touched_bytes();
+    CHECK(touched >= 8 * 8 * 4);
+    CHECK(touched <= 9 * 8 * 4);
+    bench.gpu->begin_frame();
+    CHECK(bench.gpu->depth_plane()->touched_bytes() == 0);
+    for (int y = 0; y < 512; ++y) {
+      for (int x = 0; x < 1024; ++x) REQUIRE(bench.gpu->depth_plane()->is_empty(x, y));
+    }
+    bench.square(green, 200, 200);
+    CHECK(bench.pixel(0, 0) == 0x03e0);
+  }
+
+  TEST_CASE(
+      "whatever is drawn, with offsets and drawing areas anywhere, the next frame begins with empty depths") {
+    std::mt19937 random(11);
+    const auto any = [&random](int low, int high) {
+      return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
+    };
+    const Bench bench(DepthOptions{});
+    for (int n = 0; n < 200; ++n) {
+      const auto area = [&](std::uint32_t code, int x, int y) {
+        bench.gpu->gp0(code | static_cast<std::uint32_t>(y) << 10 | static_cast<std::uint32_t>(x));
+      };
+      area(0xe3000000, any(0, 700), any(0, 600));
+      area(0xe4000000, any(300, 1023), any(300, 1023));
+      bench.gpu->gp0(0xe5000000 | static_cast<std::uint32_t>(any(0, 2047)) << 11 |
+                     static_cast<std::uint32_t>(any(0, 2047)));
+      for (int k = 0; k < 4; ++k) {
+        bench.gpu->gp0(depths({100.0 + k, 200, 300}));
+        const auto corner = [&] { return at(any(0, 1000), any(0, 500)); };
+        const auto a = corner(), b = corner(), c = corner();
+        bench.gpu->gp0(Words{0x20000000 | red, a, b, c});
+      }
+      bench.gpu->begin_frame();
+      bool is_empty = true;
+      for (int y = 0; y < 512; ++y) {
+        for (int x = 0; x < 1024; ++x) is_empty = is_empty && bench.gpu->depth_plane()->is_empty(x, y);
+      }
+      REQUIRE(is_empty);
+    }
   }
 }

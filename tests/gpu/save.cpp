@@ -242,7 +242,7 @@ TEST_SUITE("gpu") {
     };
     const auto size = std::to_string(state.size());
     CHECK(error({}) == "not a saved state: expected OTTER-GPU-STATE");
-    CHECK(error(with_word(state, 16, 2)) == "version 2, expected 1");
+    CHECK(error(with_word(state, 16, 3)) == "version 3, expected 2");
     CHECK(error({state.begin(), state.begin() + 18}) == "the state ends, expected 4 more bytes");
     CHECK(error({state.begin(), state.end() - 1}) ==
           std::to_string(state.size() - 1) + " bytes, expected " + size);

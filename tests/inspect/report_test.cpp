@@ -47,7 +47,7 @@ TEST_SUITE("inspect") {
     CHECK(report.pairs[0].owner_depth == doctest::Approx(100));
   }
 
-  TEST_CASE("Of a quad that is folded over itself, the nearer half says how deep it is") {
+  TEST_CASE("Of a quad that is folded over itself, the half that is seen says how deep it is") {
     Stage stage;
     // Corners 0, 1, 2 and 1, 2, 3: with corner 3 beside corner 0 both triangles cover the same pixels.
     stage.quad(0, 0, 8, 8, 10, {.bucket = 1});

@@ -65,6 +65,7 @@ class PlainGpu {
              std::uint32_t key);
   std::uint16_t texel(int u, int v) const;
   void transfer_pixel(int x, int y, std::uint16_t value);
+  void empty_depth(int x, int y);
   std::uint16_t& at(int x, int y) { return vram[static_cast<std::size_t>((y & 511) * 1024 + (x & 1023))]; }
   std::uint16_t at(int x, int y) const {
     return vram[static_cast<std::size_t>((y & 511) * 1024 + (x & 1023))];

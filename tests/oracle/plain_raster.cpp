@@ -318,7 +318,10 @@ void PlainGpu::fill() {
       static_cast<uint16_t>((command_ >> 3 & 31) | (command_ >> 11 & 31) << 5 | (command_ >> 19 & 31) << 10);
   for (int j = 0; j < h; ++j) {
     if (row_is_skipped((y + j) & 511)) continue;
-    for (int i = 0; i < w; ++i) at(x + i, y + j) = value;
+    for (int i = 0; i < w; ++i) {
+      at(x + i, y + j) = value;
+      empty_depth(x + i, y + j);
+    }
   }
 }
 
@@ -341,6 +344,12 @@ void PlainGpu::copy() {
 void PlainGpu::transfer_pixel(int x, int y, uint16_t value) {
   if ((reg_.mask & 2) != 0 && (at(x, y) & 0x8000) != 0) return;
   at(x, y) = static_cast<uint16_t>(value | (reg_.mask & 1) << 15);
+  empty_depth(x, y);
+}
+
+/// Depth begins anew where a transfer wrote.
+void PlainGpu::empty_depth(int x, int y) {
+  if (!depth.empty()) depth[static_cast<std::size_t>((y & 511) * 1024 + (x & 1023))] = gpu::DepthPlane::empty;
 }
 
 }  // namespace oracle

@@ -58,6 +58,8 @@ void DepthReader::take(std::uint32_t word_in) {
     const auto v = code - fraction;
     value.fx[v] = static_cast<std::uint8_t>(FractionX::get(word_in));
     value.fy[v] = static_cast<std::uint8_t>(FractionY::get(word_in));
+    value.du[v] = static_cast<std::int8_t>(TexelRestU::get_signed(word_in));
+    value.dv[v] = static_cast<std::int8_t>(TexelRestV::get_signed(word_in));
     value.has_fractions = true;
   }
 }
@@ -179,6 +181,8 @@ TEST_SUITE("ot") {
         if (!a.has_fractions) continue;
         a.fx[v] = static_cast<std::uint8_t>(random());
         a.fy[v] = static_cast<std::uint8_t>(random());
+        a.du[v] = static_cast<std::int8_t>(static_cast<int>(random() % 16) - 8);
+        a.dv[v] = static_cast<std::int8_t>(static_cast<int>(random() % 16) - 8);
       }
       const auto words = words_of(a);
       CHECK(words.size() == word_count(a));

@@ -313,7 +313,8 @@ TEST_SUITE("scene") {
     auto s = random_scene(5, 60000);
     for (auto& p : s.world.meshes[0].positions) p.z -= 1;
     Knobs knobs;
-    knobs.position = scene::Position::fine;  // 48 bytes a triangle with its annotation
+    knobs.position = scene::Position::fine;
+    knobs.visibility = scene::Visibility::zbuffer;  // 48 bytes a triangle with its annotation
     ot::MainRam small(ot::RamSize::mib2);
     ot::MainRam large(ot::RamSize::mib8);
     gpu::Gpu one;
@@ -336,6 +337,7 @@ TEST_SUITE("scene") {
     Knobs knobs;
     knobs.buckets = 1;
     knobs.position = scene::Position::fine;
+    knobs.visibility = scene::Visibility::zbuffer;
     const auto s = random_scene(5, 60000);
     ot::MainRam ram(ot::RamSize::mib2);
     FrameBuilder builder(s, knobs);

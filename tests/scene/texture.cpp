@@ -5,7 +5,7 @@
 #include <string>
 
 using scene::Rgba8;
-using scene::TexelAxis;
+using scene::TexelAxis, scene::TexelCoordinate;
 using scene::TexelFormat;
 using scene::Texture;
 
@@ -148,19 +148,39 @@ TEST_SUITE("scene") {
 
   TEST_CASE("texture coordinates 0..1 cover all texels and never the neighbour's") {
     const TexelAxis axis{.texels = 40, .origin = 60};
-    CHECK(axis.coordinate(0, 0) == 60);
-    CHECK(axis.coordinate(0.5, 0) == 80);
-    CHECK(axis.coordinate(1, 0) == 99);
-    CHECK(axis.coordinate(7, 0) == 99);  // clamped
-    CHECK(axis.coordinate(-3, 0) == 60);
+    const TexelCoordinate first{60, -4}, last{99, 4};  // half a texel before the first, and behind the last
+    CHECK(axis.coordinate(0, 0, true) == first);
+    CHECK(axis.coordinate(0.5, 0, true) == TexelCoordinate{80, -4});  // 19.5
+    CHECK(axis.coordinate(1, 0, true) == last);
+    CHECK(axis.coordinate(7, 0, false) == last);  // clamped
+    CHECK(axis.coordinate(-3, 0, false) == first);
+  }
+
+  TEST_CASE("u is t N - 1/2: as near to it as a whole number can be, and the rest in eighths") {
+    for (const int texels : {8, 32, 100, 255, 256}) {
+      for (const bool windowed : {false, true}) {
+        if (windowed && texels != 8 && texels != 32 && texels != 256) continue;  // powers of two alone
+        const TexelAxis axis{.texels = texels, .origin = 0, .windowed = windowed, .repeats = windowed};
+        for (int n = 0; n <= 64; ++n) {
+          CAPTURE(texels);
+          CAPTURE(n);
+          const auto c = axis.coordinate(n / 64.0, 0, true);
+          const double exact = n / 64.0 * texels - 0.5;
+          CHECK(c.whole < texels);
+          CHECK(std::abs(c.whole - exact) <= 0.5);
+          CHECK(std::abs(c.whole + c.rest / 8.0 - exact) <= 1.0 / 16);
+        }
+      }
+    }
   }
 
   TEST_CASE("a repeated axis counts from the whole part of the polygon's smallest coordinate") {
     const TexelAxis axis{.texels = 64, .origin = 0, .windowed = true, .repeats = true};
     CHECK(axis.periods() == 3);
-    CHECK(axis.coordinate(-2.5, -3) == 32);
-    CHECK(axis.coordinate(0, -3) == 192);
-    CHECK(axis.coordinate(1, -3) == 255);  // four periods do not fit: tessellate() cuts such faces
+    CHECK(axis.coordinate(-2.5, -3, false) == TexelCoordinate{32, -4});
+    CHECK(axis.coordinate(0, -3, false) == TexelCoordinate{192, -4});
+    // Four periods do not fit: tessellate() cuts such faces.
+    CHECK(axis.coordinate(1, -3, false).whole == 255);
   }
 
   TEST_CASE("packing is the same every time") {

@@ -23,6 +23,7 @@
 #include "base/write_file.h"
 #include "debug/timeline.h"
 #include "display/png.h"
+#include "dump/frames.h"
 #include "inspect/history.h"
 #include "inspect/json.h"
 #include "inspect/lint.h"
@@ -33,7 +34,8 @@ namespace app {
 namespace {
 
 struct InspectOptions {
-  std::string source, frame, frames, pixel, camera, json, heatmap, overdraw, ids, truth, depth_map;
+  std::string source, frame, frames, frame_by = "display", pixel, camera, json, heatmap, overdraw, ids, truth,
+                                     depth_map;
   std::int64_t max = -1;
   RamOptions ram;
   scene::Knobs knobs;
@@ -238,6 +240,7 @@ base::Result<std::unique_ptr<FrameSource>> open(const InspectOptions& options) {
   auto timeline = open_timeline(*source, options.knobs);
   if (!timeline) return tl::make_unexpected(timeline.error());
   if (auto read = (*timeline)->read_all(); !read) return tl::make_unexpected(read.error());
+  (*timeline)->end_frames_by(dump::frame_by_named(options.frame_by));
   warn_of_fault(**timeline);
   return std::make_unique<RecordingSource>(options.source, std::move(*timeline), options.knobs);
 }
@@ -348,6 +351,8 @@ Action add_inspect(Arguments arguments) {
       Presence::required);
   arguments.text("--frame", "N", options->frame, "of a scene from 0 [0], of a recording from 1 [1]");
   arguments.text("--frames", "A..B", options->frames, "several frames, both ends included");
+  arguments.choice("--frame-by", options->frame_by, {"display", "vsync"},
+                   "dump: a frame ends where the display shows another buffer, or at every VSync [display]");
   file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
   file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
   file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");

@@ -26,18 +26,26 @@
 #include "display/png.h"
 #include "display/vram_file.h"
 #include "dump/dump_file.h"
+#include "dump/frames.h"
 #include "scene/plan.h"
 
 namespace app {
 namespace {
 
 struct ReplayOptions {
-  std::string dump, vram, output, readback, until, json;
+  std::string dump, vram, output, readback, until, json, frame_by;
   std::optional<std::uint64_t> frame;
   std::uint64_t repeat = 0;
   bool list = false;
   ExpectOptions expect;
   scene::Knobs knobs;
+
+  /// --frame counts frames; false: VSync packets.
+  [[nodiscard]] bool counts_frames() const { return frame_by == dump::frame_by_names[0]; }
+  /// Of F:K.
+  [[nodiscard]] dump::FrameBy numbers_by() const {
+    return counts_frames() ? dump::FrameBy::display : dump::FrameBy::vsync;
+  }
 };
 
 base::Result<void> check_options(const ReplayOptions& options) {
@@ -93,11 +101,17 @@ base::Result<void> put_until(const ReplayOptions& options, debug::Timeline& time
 
 base::Result<End> end_of(const ReplayOptions& options, debug::Timeline& timeline) {
   const auto& dump = timeline.dump();
-  if (options.frame && *options.frame > dump.vsyncs) {
+  const std::uint64_t most = options.counts_frames() ? timeline.frames() : dump.vsyncs;
+  if (options.frame && *options.frame > most) {
     return base::fail("--frame " + std::to_string(*options.frame) + ": " + options.dump + " has " +
-                      std::to_string(dump.vsyncs) + " VSync packets");
+                      std::to_string(most) + (options.counts_frames() ? " frames" : " VSync packets"));
   }
-  End end{.limits = {.frame = options.frame}, .list = {.number = {}, .frame = options.frame}};
+  End end{.limits = {}, .list = {.number = {}, .frame = options.frame}};
+  if (options.frame && options.counts_frames()) {
+    end.limits.end_packet = timeline.frame(*options.frame).end_packet;
+  } else {
+    end.limits.frame = options.frame;
+  }
   if (options.until.empty()) return end;
   return put_until(options, timeline, end).map([&] { return end; });
 }
@@ -170,6 +184,7 @@ base::Result<int> replay(const ReplayOptions& options) {
   if (!read) return tl::make_unexpected(read.error());
   debug::Timeline timeline(debug::Recording(std::move(*read)), draw_options(options.knobs));
   const auto& dump = timeline.dump();
+  timeline.end_frames_by(options.numbers_by());
   const auto end = end_of(options, timeline);
   if (!end) return tl::make_unexpected(end.error());
   if (dump.gpu_version == 3) {
@@ -180,7 +195,9 @@ base::Result<int> replay(const ReplayOptions& options) {
   } else if (options.json != "-") {
     print_summary(options.dump, dump);
   }
+  const dump::Frames frames(dump, dump::frame_by_named(options.frame_by));
   dump::ReplayOptions limits = end->limits;
+  limits.frames = &frames;
   std::vector<std::uint32_t> readback;
   gpu::Gpu gpu;
   gpu.set_depth(scene::depth_options(options.knobs));
@@ -226,7 +243,10 @@ Action add_replay(Arguments arguments) {
                  "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords");
   arguments.text("-o,--output", "FILE", options->output, "write the display area as a PNG");
   arguments.number("--frame", "N", options->frame, std::uint64_t{1}, most,
-                   "stop at the Nth VSync packet, from 1");
+                   "stop at the Nth VSync packet, from 1; with --frame-by display, after the Nth frame");
+  arguments.choice("--frame-by", options->frame_by, {"display", "vsync"},
+                   "what --frame and F:K count [vsync], and where the frames of a z-buffer end [display]: "
+                   "where the display shows another buffer, or at every VSync");
   arguments.text("--until", "K|F:K", options->until,
                  "stop after the Kth drawing command, or after command K of frame F, both from 1");
   arguments.number("--repeat", "N", options->repeat, std::uint64_t{1}, std::uint64_t{1'000'000'000},

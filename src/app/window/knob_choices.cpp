@@ -82,6 +82,10 @@ bool knob_matters(const scene::KnobInfo& knob, const scene::Knobs& knobs) {
     return kind == scene::AntialiasKind::ssaa || kind == scene::AntialiasKind::rotated ||
            kind == scene::AntialiasKind::random;
   }
+  if (knob.name == "aa-space") {
+    return knobs.antialias.kind != scene::AntialiasKind::off &&
+           knobs.antialias.kind != scene::AntialiasKind::fxaa;
+  }
   return true;
 }
 

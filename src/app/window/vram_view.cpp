@@ -12,8 +12,8 @@ namespace {
 
 constexpr ImU32 display_colour = IM_COL32(0xf2, 0xa3, 0x3a, 255);
 constexpr ImU32 drawing_colour = IM_COL32(0x4c, 0xc8, 0xff, 255);
-constexpr ImU32 label_colour = IM_COL32(0x14, 0x14, 0x1c, 0xd8);
 constexpr ImU32 grid_colour = IM_COL32(0xff, 0xff, 0xff, 40);
+constexpr ImU32 label_colour = IM_COL32(0x14, 0x14, 0x1c, 0xd8);
 
 ImVec2 at(const VramMapping& mapping, double x, double y) {
   return {static_cast<float>(mapping.to_x(x)), static_cast<float>(mapping.to_y(y))};

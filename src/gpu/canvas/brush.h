@@ -98,7 +98,8 @@ struct FogRamp {
 /// The texels of one primitive: taps of a filter stay inside, so what lies beside
 /// them in the page does not bleed.
 struct TexelBox {
-  int u_min = 0, u_max = 255, v_min = 0, v_max = 255;
+  int u_min = 0, u_max = 255, v_min = 0, v_max = 255;  ///< texels; of pictures that repeat one more each way
+  int u_low = 0, u_high = 255 * 256, v_low = 0, v_high = 255 * 256;  ///< coordinates, 8.8
   int coarsest_level = 0;  ///< one texel of the next level would be larger than the box
 };
 
@@ -116,8 +117,9 @@ struct Paint {
   TexelBox box;
   const MipChain* mips = nullptr;
   Filter filter = Filter::nearest;
-  int level_bias = 0;  ///< 8.8, added to the mip level
-  bool raw = false;    ///< the texel is used unchanged
+  int level_bias = 0;     ///< 8.8, added to the mip level
+  bool is_exact = false;  ///< corners have rests: coordinates in eighths, and nearest texels kept in the box
+  bool raw = false;       ///< the texel is used unchanged
   bool gouraud = false;
   bool perspective = false;
   bool dither = false;

@@ -25,14 +25,33 @@ FogRamp ramp(const Fog& fog) {
   return {{fog.r, fog.g, fog.b}, fog.far_z / range, -fog.far_z * fog.near_z / range};
 }
 
-/// Texels that a triangle's corners span, and the mip level whose texels are as large.
-TexelBox texel_box(const Primitive& p) {
-  TexelBox box{255, 0, 255, 0, 0};
-  for (std::size_t i = 0; i < p.vertex_count; ++i) {
-    const Vertex& v = p.vertices[i];
-    box = {std::min<int>(box.u_min, v.u), std::max<int>(box.u_max, v.u), std::min<int>(box.v_min, v.v),
-           std::max<int>(box.v_max, v.v), 0};
+/// Texels between two coordinates, eighths of a texel. What repeats, as more texels than the window's period
+/// do, may be filtered with the next one on either side.
+struct Texels {
+  int first, last;
+  Texels(int low, int high, int period) : first((low + 4) >> 3), last(std::max(first, (high + 3) >> 3)) {
+    if (last - first < period) return;
+    first = low >> 3;
+    last = (high + 7) >> 3;
   }
+};
+
+/// Texels that a polygon's corners span, and the mip level whose texels are as large.
+TexelBox texel_box(const Primitive& p, const TextureView& view) {
+  constexpr int beyond = 1 << 12;
+  int u_low = beyond, u_high = -beyond, v_low = beyond, v_high = -beyond;
+  for (std::size_t i = 0; i < p.vertex_count; ++i) {
+    const Vertex& vertex = p.vertices[i];
+    const int u = 8 * vertex.u + (p.has_texel_rests ? vertex.du : 0);
+    const int v = 8 * vertex.v + (p.has_texel_rests ? vertex.dv : 0);
+    u_low = std::min(u_low, u);
+    u_high = std::max(u_high, u);
+    v_low = std::min(v_low, v);
+    v_high = std::max(v_high, v);
+  }
+  const Texels u(u_low, u_high, p.has_texel_rests ? view.keep_u + 1 : beyond);
+  const Texels v(v_low, v_high, p.has_texel_rests ? view.keep_v + 1 : beyond);
+  TexelBox box{u.first, u.last, v.first, v.last, 32 * u_low, 32 * u_high, 32 * v_low, 32 * v_high, 0};
   const auto span = static_cast<unsigned>(std::max(box.u_max - box.u_min, box.v_max - box.v_min));
   box.coarsest_level = std::max(0, static_cast<int>(std::bit_width(span)) - 1);
   return box;
@@ -58,11 +77,17 @@ Canvas::Canvas(Options options)
   layers_.resize(o.layers.size());
   for (Layer& layer : layers_) {
     layer.colour.resize(area(o) * samples_per_pixel(o));
-    if (o.depth) layer.depth.resize(layer.colour.size());
+    if (o.depth) layer.depth.resize(layer.colour.size(), DepthPlane::empty);
   }
   if (o.trace) {
     ids_.resize(area(o));
     texcoords_.resize(area(o));
+  }
+  if (o.scatter_seed != 0) {
+    for (std::uint32_t pattern = 0; pattern < scatter_patterns; ++pattern) {
+      const auto points = random_samples(static_cast<int>(o.layers.size()), o.scatter_seed + pattern);
+      scatter_.insert(scatter_.end(), points.begin(), points.end());
+    }
   }
   if (o.depth) depth_.emplace(*o.depth);
   if (o.fog) fog_ = ramp(*o.fog);
@@ -71,7 +96,10 @@ Canvas::Canvas(Options options)
 void Canvas::begin_frame(int x, int y) {
   grid_.x = watch_.x = x;
   grid_.y = watch_.y = y;
-  for (Layer& layer : layers_) std::ranges::fill(layer.depth, DepthPlane::empty);
+  if (has_depths_) {
+    for (Layer& layer : layers_) std::ranges::fill(layer.depth, DepthPlane::empty);
+  }
+  has_depths_ = false;
   std::ranges::fill(ids_, 0);
   if (options_.temporal) layer_points_[0] = temporal_jitter(frames_++);
 }
@@ -91,6 +119,7 @@ bool Canvas::draw(const Primitive& p, Pass pass, const Vram& vram, const std::ui
   }
   const Clip inside = clip(p.state);
   const Paint how = paint(p, pass, vram, clut, id);
+  has_depths_ = has_depths_ || pass == Pass::opaque;
   watch_.draw = id - 1;
   watch_.half = 0;
   switch (p.kind) {
@@ -180,7 +209,8 @@ Paint Canvas::paint(const Primitive& p, Pass pass, const Vram& vram, const std::
                    options_.colour == Colour::bits24};
   if (!is_polygon) return paint;
   paint.filter = options_.filter;
-  paint.box = texel_box(p);
+  paint.box = texel_box(p, paint.texture);
+  paint.is_exact = p.has_texel_rests && p.is_textured();
   if (paint.filter >= Filter::mipmap) {
     paint.mips = &mips_.chain(paint.texture, state);
     // S layers are S finer pixels to the area of one: half a level for each doubling.
@@ -250,12 +280,56 @@ void Canvas::rasterise(const std::array<Point, 3>& corners, const Planes& planes
     const Target to = target(i);
     Paint how = paint;
     how.mode = mode_for(to, paint.mode);
+    if (!scatter_.empty()) {
+      rasterise_scattered(to, i, corners, planes, how, clip);
+      continue;
+    }
     Coverage coverage(corners, to.offset, clip.rows);
     for (int y = coverage.rows().begin; y < coverage.rows().end; ++y) {
       for_each_run(intersect(inside(coverage.next(), y), clip.columns), [&](int x, int count) {
         draw_run(to, how, planes, {x, y, count}, counters_);
       });
     }
+  }
+}
+
+/// Where a row of pixels may have samples inside: between the lines above and below them, and at corners that
+/// lie there.
+void Canvas::rasterise_scattered(const Target& to, std::size_t layer, const std::array<Point, 3>& corners,
+                                 const Planes& planes, const Paint& paint, const Clip& clip) {
+  constexpr std::int64_t half = units_per_pixel / 2;
+  const Inside inside(corners);
+  const Range rows = intersect(inside.rows(), clip.rows);
+  std::array<Coverage, 2> lines{Coverage(corners, {0, -half}, clip.rows),
+                                Coverage(corners, {0, half - 1}, clip.rows)};
+  for (int y = rows.begin; y < rows.end; ++y) {
+    Range any;
+    for (Coverage& line : lines) {
+      if (y < line.rows().begin || y >= line.rows().end) continue;
+      const Range covered = line.next();
+      any = unite(any, {covered.begin - 1, covered.end + 1});
+    }
+    for (const Point& corner : corners) {
+      if (std::abs(corner.y - y * units_per_pixel) > half) continue;
+      const auto column = static_cast<int>(floor_div(corner.x, units_per_pixel));
+      any = unite(any, {column - 1, column + 2});
+    }
+    for_each_run(intersect(any, clip.columns), [&](int x, int count) {
+      std::array<std::uint8_t, run_length> covered;
+      std::array<Point, run_length> shaded_at;
+      std::uint8_t some = 0;
+      for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+        const int column = x + static_cast<int>(i);
+        const auto pattern = scatter_pattern(column, y, options_.scatter_seed);
+        shaded_at[i] = scatter_[pattern * layers_.size() + layer];
+        covered[i] =
+            inside.contains({column * units_per_pixel + shaded_at[i].x, y * units_per_pixel + shaded_at[i].y})
+                ? 1
+                : 0;
+        some |= covered[i];
+      }
+      if (some != 0) draw_run(to, paint, planes, {x, y, count, covered.data(), shaded_at.data()}, counters_);
+    });
   }
 }
 

@@ -98,6 +98,8 @@ class Canvas {
   void triangle(const Primitive& p, const Triangle& triangle, const Paint& paint, const Clip& clip);
   void rasterise(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
                  const Clip& clip, const DrawState& state);
+  void rasterise_scattered(const Target& to, std::size_t layer, const std::array<Point, 3>& corners,
+                           const Planes& planes, const Paint& paint, const Clip& clip);
   void rasterise_samples(const std::array<Point, 3>& corners, const Planes& planes, const Paint& paint,
                          const Clip& clip);
   void rectangle(const Primitive& p, const Paint& paint, const Clip& clip);
@@ -107,14 +109,17 @@ class Canvas {
   void copy(const Primitive& p, const Vram& vram);
   void upload(const Primitive& p, const Vram& vram);
   [[nodiscard]] Pixel from_vram(std::uint16_t pixel) const;
+  void empty_depth(Layer& layer, std::size_t first, std::size_t count) const;
 
   Options options_;
   Grid grid_;
   std::optional<Limits> limits_;
   std::vector<Point> layer_points_, sample_points_;
+  std::vector<Point> scatter_;  // with a scatter_seed: of each pattern the samples of all layers
   std::vector<Layer> layers_;
   std::vector<std::uint32_t> ids_, texcoords_;
-  int frames_ = 0;  // begun
+  int frames_ = 0;           // begun
+  bool has_depths_ = false;  // some were written since begin_frame
   std::optional<DepthConstants> depth_;
   FogRamp fog_;
   MipCache mips_;

@@ -33,8 +33,8 @@ void interpolate_texture(const Paint& paint, const Planes& planes, const Positio
                          const std::array<double, run_length>& z, int count, Fragments& f) {
   const auto& box = paint.box;
   if (paint.perspective) {
-    interpolate(planes.over_z[3], z, positions, box.u_min * 256, box.u_max * 256, f.u);
-    interpolate(planes.over_z[4], z, positions, box.v_min * 256, box.v_max * 256, f.v);
+    interpolate(planes.over_z[3], z, positions, box.u_low, box.u_high, f.u);
+    interpolate(planes.over_z[4], z, positions, box.v_low, box.v_high, f.v);
   } else {
     interpolate(planes.integer[3], planes.shift, positions, f.u);
     interpolate(planes.integer[4], planes.shift, positions, f.v);
@@ -56,10 +56,10 @@ void fog_factors(const FogRamp& ramp, const Planes& planes, const Positions& pos
   });
 }
 
-/// Both coordinates in one word. Rounding may leave 0..255 by less than half a
-/// texel, so 128 keeps them positive.
+/// Both coordinates in one word. They may leave 0..255 by half a texel, so 128 keeps them positive.
 constexpr std::uint32_t texcoord(std::int32_t u, std::int32_t v) {
-  return (static_cast<std::uint32_t>(u + 128) & 0xffff) | static_cast<std::uint32_t>(v + 128) << 16;
+  const auto half = [](std::int32_t c) { return static_cast<std::uint32_t>(std::clamp(c + 128, 0, 0xffff)); };
+  return half(u) | half(v) << 16;
 }
 
 /// Whether the depth test alone stopped pixel i, which a watcher is told. Without one there is no code for
@@ -174,18 +174,23 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
     const auto all = static_cast<std::uint8_t>((1U << target.samples.size()) - 1);
     std::fill_n(f.alive.begin(), run.count, all);
   }
-  counters.covered += static_cast<std::uint64_t>(run.count);
+  const auto living = [&] {
+    return static_cast<std::uint64_t>(
+        run.count - std::count(f.alive.begin(), f.alive.begin() + run.count, std::uint8_t{0}));
+  };
+  const auto covered = run.covered == nullptr ? static_cast<std::uint64_t>(run.count) : living();
+  counters.covered += covered;
   ++counters.runs[M.index()];
   const std::uint8_t* rejected = nullptr;
   [[maybe_unused]] std::array<std::uint8_t, run_length> before;
   if constexpr (M.depth) {
-    counters.tested += static_cast<std::uint64_t>(run.count) * target.samples.size();
+    counters.tested += covered * target.samples.size();
     if constexpr (M.trace) std::copy_n(f.alive.begin(), run.count, before.begin());
     const bool any = test_depth(target, paint, planes, run, f);
     if constexpr (M.trace) rejected = keep_rejected(target, run, f, before);
     if (!any && rejected == nullptr) return;
   }
-  counters.shaded += static_cast<std::uint64_t>(run.count);
+  counters.shaded += covered;
 
   constexpr bool textured = M.texture != TexelFormat::none;
   const Positions positions(target, planes, run);
@@ -194,8 +199,7 @@ void kernel(const Target& target, const Paint& paint, const Planes& planes, cons
   if constexpr (textured) {
     interpolate_texture(paint, planes, positions, z, run.count, f);
     fetch_texels<M.texture>(paint, run.count, f);
-    const auto living = run.count - std::count(f.alive.begin(), f.alive.begin() + run.count, std::uint8_t{0});
-    counters.texel_bytes += static_cast<std::uint64_t>(living) * bytes_per_texel<M.texture>(paint.filter);
+    counters.texel_bytes += living() * bytes_per_texel<M.texture>(paint.filter);
   }
   interpolate_colour(paint, planes, positions, z, run.count, f);
   std::array<std::int32_t, run_length> fog;

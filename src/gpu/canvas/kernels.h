@@ -15,8 +15,8 @@ struct Run {
   int x = 0, y = 0, count = 0;
   /// Per pixel, bit s = sample s is covered; nullptr: all samples are.
   const std::uint8_t* covered = nullptr;
-  /// Per pixel, where attributes are taken, in canvas units from the pixel's origin;
-  /// nullptr: at the layer's offset.
+  /// Per pixel, where attributes are taken, in canvas units from the pixel's origin; nullptr: at the layer's
+  /// offset. With one sample a pixel it is the sample.
   const Point* shaded_at = nullptr;
 };
 

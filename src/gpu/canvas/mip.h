@@ -20,9 +20,9 @@ class MipChain {
   MipChain(const TextureView& view, TexelFormat format);
 
   [[nodiscard]] Pixel at(int level, int u, int v) const {
-    const auto width = std::size_t{256} >> level;
-    return texels_[begins_[static_cast<std::size_t>(level)] + static_cast<std::size_t>(v) * width +
-                   static_cast<std::size_t>(u)];
+    const int width = 256 >> level;  // coordinates are taken modulo this
+    return texels_[begins_[static_cast<std::size_t>(level)] +
+                   static_cast<std::size_t>((v & (width - 1)) * width + (u & (width - 1)))];
   }
   [[nodiscard]] std::uint64_t bytes() const { return texels_.size() * sizeof(Pixel); }
 

@@ -19,6 +19,12 @@ enum class Filter : std::uint8_t {
   mipmap_linear,  ///< bilinear inside two levels, mixed
 };
 
+/// What an average of samples is taken of.
+enum class AverageOf : std::uint8_t {
+  stored,  ///< the numbers in the frame buffer, as the console's blending does
+  light,   ///< the light they stand for: decoded as sRGB, averaged, encoded again
+};
+
 /// How samples become pixels.
 enum class Reconstruction : std::uint8_t {
   box,    ///< the pixel's own samples, all alike
@@ -52,6 +58,9 @@ struct Options {
   /// Super-sampling: the frame is drawn once per layer, seen from the layer's offset in every pixel. {0, 0}
   /// alone is no super-sampling.
   std::vector<Point> layers{Point{}};
+  /// Not 0: each pixel's samples are its own, at random (random_samples) in the cells round the layers'
+  /// offsets, which must be cell_middles.
+  std::uint32_t scatter_seed = 0;
   /// Multi-sampling: coverage, depth and colour per sample, shaded once per pixel. Empty: off. Never with
   /// more than one layer. At most 8.
   std::vector<Point> samples = {};

@@ -1,8 +1,8 @@
 #pragma once
 // From the samples of a frame to its pixels: the filter afterwards.
 //
-// Means are taken of the stored values, which is what the console's blending does
-// too; light is not linearised.
+// Means are taken of the stored values, which is what the console's blending does too, or of the light that
+// they stand for when it is asked for.
 
 #include <cstdint>
 #include <vector>
@@ -24,7 +24,12 @@ struct Tap {
 std::vector<Tap> filter_taps(const Options& options, Reconstruction filter);
 
 /// The picture: width() x height() pixels, 8 bits a channel; 5 bits become 8 as v << 3 | v >> 2.
-base::Picture resolve(const Canvas& canvas, Reconstruction filter);
+base::Picture resolve(const Canvas& canvas, Reconstruction filter, AverageOf average = AverageOf::stored);
+
+/// The light of a stored byte as 0..65535, by the sRGB curve [IEC 61966-2-1], and the byte whose light is
+/// nearest. from_light(to_light(b)) is b.
+std::uint32_t to_light(std::uint32_t byte);
+std::uint32_t from_light(std::uint32_t light);
 
 /// Fast approximate anti-aliasing of a finished picture: where luma shows an edge, pixels are
 /// moved along their neighbour by the share of the edge's length that they stand at. [Lottes 2009,
@@ -37,12 +42,13 @@ base::Picture fxaa(const base::Picture& picture);
 class Accumulator {
  public:
   /// Takes the next frame and returns the accumulated picture. A picture of another size starts anew.
-  const base::Picture& add(const base::Picture& frame);
+  const base::Picture& add(const base::Picture& frame, AverageOf average = AverageOf::stored);
   void forget() { frames_ = 0; }
   [[nodiscard]] std::uint64_t bytes() const { return history_.size() * sizeof(std::uint16_t); }
 
  private:
-  std::vector<std::uint16_t> history_;  // 8.8, three a pixel
+  std::vector<std::uint16_t> history_;  // three a pixel: 8.8, or light
+  AverageOf average_ = AverageOf::stored;
   base::Picture shown_;
   int frames_ = 0;
 };

@@ -136,4 +136,36 @@ class Coverage {
   EdgeCrossing long_edge_, short_edge_;
 };
 
+/// The same rule for single points: what Coverage says of a row, point by point.
+class Inside {
+ public:
+  explicit Inside(std::array<Point, 3> corners) : corners_(corners) {
+    std::ranges::sort(corners_, {}, &Point::y);
+    if (doubled_area(corners_[0], corners_[1], corners_[2]) == 0) corners_[2].y = corners_[0].y;
+  }
+
+  /// Rows of pixels any point of which, up to half a pixel from the sample line, may be inside.
+  [[nodiscard]] Range rows() const {
+    constexpr std::int64_t half = units_per_pixel / 2;
+    return {static_cast<int>(ceil_div(corners_[0].y - half + 1, units_per_pixel)),
+            static_cast<int>(ceil_div(corners_[2].y + half, units_per_pixel))};
+  }
+
+  [[nodiscard]] bool contains(Point p) const {
+    const auto& [top, middle, bottom] = corners_;
+    if (p.y < top.y || p.y >= bottom.y) return false;
+    const bool is_right_of_short =
+        p.y < middle.y ? is_right_of(p, top, middle) : is_right_of(p, middle, bottom);
+    return is_right_of(p, top, bottom) != is_right_of_short;
+  }
+
+ private:
+  /// On the edge or to the right of it; `upper.y < lower.y`.
+  static bool is_right_of(Point p, Point upper, Point lower) {
+    return (p.x - upper.x) * (lower.y - upper.y) >= (lower.x - upper.x) * (p.y - upper.y);
+  }
+
+  std::array<Point, 3> corners_;
+};
+
 }  // namespace gpu::canvas

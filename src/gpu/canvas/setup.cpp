@@ -10,6 +10,12 @@ namespace {
 
 std::array<int, 5> attributes(const Vertex& v) { return {v.r, v.g, v.b, v.u, v.v}; }
 
+/// The same with texture coordinates in eighths.
+constexpr int rest_bits = 3;
+std::array<int, 5> exact_attributes(const Vertex& v) {
+  return {v.r, v.g, v.b, (v.u << rest_bits) + v.du, (v.v << rest_bits) + v.dv};
+}
+
 double inverse_depth(const Vertex& v) { return 4096.0 / static_cast<double>(std::max(v.z, 1U)); }
 
 /// Differences of an attribute across the triangle, before the division by its area.
@@ -22,15 +28,16 @@ struct Slope {
 };
 
 /// 5.2 with finer positions: the gradient per VRAM pixel keeps the console's 12 fractional bits, so that with
-/// integer positions every bit is the console's. |slope| <= 2^30, unit <= 2^11: the product fits.
+/// integer positions every bit is the console's. `bits`: fractional bits of f. |slope| <= 2^33, unit <= 2^11:
+/// the product fits.
 IntegerPlane integer_plane(const std::array<int, 3>& f, std::size_t core, const std::array<Point, 3>& corners,
-                           std::int64_t area, std::int64_t unit) {
+                           std::int64_t area, std::int64_t unit, int bits) {
   const Slope<std::int64_t> slope(f[0], f[1], f[2], corners);
   const auto gradient = [&](std::int64_t n) {
-    return static_cast<std::uint64_t>(n * unit * 4096 / area) << 12;
+    return static_cast<std::uint64_t>(n * unit * 4096 / area) << (12 - bits);
   };
-  return {(static_cast<std::uint64_t>(f[core]) << 24) * static_cast<std::uint64_t>(unit), gradient(slope.x),
-          gradient(slope.y)};
+  return {(static_cast<std::uint64_t>(f[core]) << (24 - bits)) * static_cast<std::uint64_t>(unit),
+          gradient(slope.x), gradient(slope.y)};
 }
 
 RealPlane real_plane(const std::array<double, 3>& f, std::size_t core, const std::array<Point, 3>& corners,
@@ -55,8 +62,8 @@ Planes make_planes(const Grid& grid, const Triangle& triangle, const std::array<
   const std::size_t core = core_vertex(corners[0].x, corners[1].x, corners[2].x);
   const auto area = doubled_area(corners[0], corners[1], corners[2]);
   const auto real_area = static_cast<double>(area);
-  const std::array<std::array<int, 5>, 3> f{attributes(*triangle[0]), attributes(*triangle[1]),
-                                            attributes(*triangle[2])};
+  const auto of = paint.is_exact ? exact_attributes : attributes;
+  const std::array<std::array<int, 5>, 3> f{of(*triangle[0]), of(*triangle[1]), of(*triangle[2])};
   std::array<double, 3> inverse{};
   planes.origin = corners[core];
   planes.shift = 24 + grid.unit_log2();
@@ -68,16 +75,19 @@ Planes make_planes(const Grid& grid, const Triangle& triangle, const std::array<
   for (std::size_t a = 0; a < 5; ++a) {
     const bool is_colour = a < 3;
     const std::array<int, 3> values{f[0][a], f[1][a], f[2][a]};
+    const int bits = paint.is_exact && !is_colour ? rest_bits : 0;
     if (is_colour && !paint.gouraud) {
       planes.integer[a].core =
           (static_cast<std::uint64_t>(values[0]) << 24) * static_cast<std::uint64_t>(grid.unit());
     } else if (!is_colour && !textured) {
       continue;
     } else if (paint.perspective) {
-      planes.over_z[a] = real_plane({values[0] * inverse[0], values[1] * inverse[1], values[2] * inverse[2]},
-                                    core, corners, real_area);
+      const double scale = 1.0 / (1 << bits);
+      planes.over_z[a] = real_plane(
+          {values[0] * scale * inverse[0], values[1] * scale * inverse[1], values[2] * scale * inverse[2]},
+          core, corners, real_area);
     } else {
-      planes.integer[a] = integer_plane(values, core, corners, area, grid.unit());
+      planes.integer[a] = integer_plane(values, core, corners, area, grid.unit(), bits);
     }
   }
   return planes;

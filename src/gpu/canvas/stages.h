@@ -81,18 +81,24 @@ inline bool test_depth(const Target& target, const Paint& paint, const Planes& p
                    static_cast<std::size_t>(run.x);
   const RealPlane& plane = planes.inverse_z;
   const DepthConstants& depth = *paint.depth;
-  for (std::size_t sample = 0; sample < samples; ++sample) {
+  const auto test = [&](std::size_t i, std::size_t sample, double inverse_z) {
+    const auto key = depth.key(depth.stored(depth.quantity(inverse_z)));
+    f.keys[i * samples + sample] = key;
+    const bool visible = depth.wins(key, target.depth[(row + i) * samples + sample]);
+    f.alive[i] = static_cast<std::uint8_t>(f.alive[i] & ~((visible ? 0U : 1U) << sample));
+  };
+  const bool is_scattered = run.shaded_at != nullptr && samples == 1;
+  if (is_scattered) {
+    Positions(target, planes, run).each(plane, [&](std::size_t i, double inverse_z) {
+      test(i, 0, inverse_z);
+    });
+  }
+  for (std::size_t sample = 0; sample < samples && !is_scattered; ++sample) {
     const Point at = target.samples[sample];
     const double start = plane.at(run.x * units_per_pixel - planes.origin.x + at.x,
                                   run.y * units_per_pixel - planes.origin.y + at.y);
     const double step = plane.per_x * static_cast<double>(units_per_pixel);
-    for (int k = 0; k < run.count; ++k) {
-      const auto i = static_cast<std::size_t>(k);
-      const auto key = depth.key(depth.stored(depth.quantity(start + step * k)));
-      f.keys[i * samples + sample] = key;
-      const bool visible = depth.wins(key, target.depth[(row + i) * samples + sample]);
-      f.alive[i] = static_cast<std::uint8_t>(f.alive[i] & ~((visible ? 0U : 1U) << sample));
-    }
+    for (int k = 0; k < run.count; ++k) test(static_cast<std::size_t>(k), sample, start + step * k);
   }
   return std::any_of(f.alive.begin(), f.alive.begin() + run.count,
                      [](std::uint8_t bits) { return bits != 0; });
@@ -175,7 +181,11 @@ inline void fetch_texels(const Paint& paint, int count, Fragments& f) {
   };
   switch (paint.filter) {
     case Filter::nearest:
-      each([&](std::size_t i) { return sample_nearest<T>(paint.texture, f.u[i], f.v[i]); });
+      if (paint.is_exact) {
+        each([&](std::size_t i) { return sample_inside<T>(paint.texture, paint.box, f.u[i], f.v[i]); });
+      } else {
+        each([&](std::size_t i) { return sample_nearest<T>(paint.texture, f.u[i], f.v[i]); });
+      }
       break;
     case Filter::bilinear:
       each([&](std::size_t i) { return sample_bilinear<T>(paint.texture, paint.box, f.u[i], f.v[i]); });

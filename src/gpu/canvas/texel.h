@@ -22,7 +22,7 @@ constexpr Pixel widen(std::uint16_t pixel, bool expand) {
   return expand ? five | (five >> 5 & 0x070707U) : five;
 }
 
-/// u, v: 0..255. A transparent texel (0000h) is 0.
+/// u, v: taken modulo 256. A transparent texel (0000h) is 0.
 template <TexelFormat T>
 inline Pixel fetch_texel(const TextureView& view, int u, int v) {
   const int su = (u & view.keep_u) | view.set_u;
@@ -44,6 +44,13 @@ inline Pixel fetch_texel(const TextureView& view, int u, int v) {
 template <TexelFormat T>
 inline Pixel sample_nearest(const TextureView& view, int u, int v) {
   return fetch_texel<T>(view, (u + 128) >> 8 & 255, (v + 128) >> 8 & 255);
+}
+
+/// Nearest texel, kept in the box: a picture shows none of its opposite edge.
+template <TexelFormat T>
+inline Pixel sample_inside(const TextureView& view, const TexelBox& box, int u, int v) {
+  return fetch_texel<T>(view, std::clamp((u + 128) >> 8, box.u_min, box.u_max),
+                        std::clamp((v + 128) >> 8, box.v_min, box.v_max));
 }
 
 /// Two texels mixed byte by byte, `weight` of `b` in 0..256. Flags are dropped.

@@ -81,7 +81,9 @@ void Canvas::fill(const Primitive& p) {
       const auto length = static_cast<std::size_t>(columns.end - columns.begin) * blocks.row_length();
       for (Layer& layer : layers_) {
         for (int row = 0; row < options_.scale; ++row) {
-          std::fill_n(&layer.colour[blocks.row(columns.begin, y, row)], length, colour);
+          const auto first = blocks.row(columns.begin, y, row);
+          std::fill_n(&layer.colour[first], length, colour);
+          empty_depth(layer, first, length);
           counters_.cleared += length;
         }
       }
@@ -123,9 +125,12 @@ void Canvas::copy(const Primitive& p, const Vram& vram) {
       });
       each([&](Pixel* kept, int, int dx) {
         each_row(kept, [&](const Pixel* source, int row) {
-          Pixel* target = &layer.colour[blocks.row(dx, dy, row)];
+          const auto begin = blocks.row(dx, dy, row);
           for (std::size_t k = 0; k < blocks.row_length(); ++k) {
-            if ((target[k] & test) == 0) target[k] = source[k] | set;
+            Pixel& target = layer.colour[begin + k];
+            if ((target & test) != 0) continue;
+            target = source[k] | set;
+            empty_depth(layer, begin + k, 1);
           }
         });
       });
@@ -144,12 +149,20 @@ void Canvas::upload(const Primitive& p, const Vram& vram) {
     const Pixel colour = from_vram(vram.at(x, y)) | set;
     for (Layer& layer : layers_) {
       for (int row = 0; row < options_.scale; ++row) {
-        Pixel* at = &layer.colour[blocks.row(x, y, row)];
-        std::replace_if(
-            at, at + blocks.row_length(), [test](Pixel old) { return (old & test) == 0; }, colour);
+        const auto first = blocks.row(x, y, row);
+        for (std::size_t k = first; k < first + blocks.row_length(); ++k) {
+          if ((layer.colour[k] & test) != 0) continue;
+          layer.colour[k] = colour;
+          empty_depth(layer, k, 1);
+        }
       }
     }
   });
+}
+
+/// What is written by a transfer begins anew.
+void Canvas::empty_depth(Layer& layer, std::size_t first, std::size_t count) const {
+  if (has_depths_) std::fill_n(&layer.depth[first], count, DepthPlane::empty);
 }
 
 /// A pixel of VRAM, its mask bit included.

@@ -1,0 +1,104 @@
+#include "dump/frames.h"
+
+#include <doctest/doctest.h>
+
+#include <vector>
+
+namespace {
+
+using dump::FrameBy;
+using dump::PacketType;
+using Words = std::vector<std::uint32_t>;
+
+const Words triangle{0x200000ff, 0x00000000, 0x00000010, 0x00100000};
+const Words upload{0xa0000000, 0x00000000, 0x00010002, 0x00000000};
+
+/// A dump told in letters: d draws, u uploads, v VSync, m the trace_begin mark, 0..9 GP1(05h) of that row.
+dump::Dump dump_of(const char* letters) {
+  dump::Dump dump;
+  for (; *letters != '\0'; ++letters) {
+    switch (*letters) {
+      case 'd':
+        dump.add(PacketType::port0, triangle);
+        break;
+      case 'u':
+        dump.add(PacketType::port0, upload);
+        break;
+      case 'v':
+        dump.add(PacketType::vsync);
+        break;
+      case 'm':
+        dump.add(PacketType::trace_begin);
+        break;
+      default:
+        dump.add(PacketType::port1, Words{0x05000000U | static_cast<std::uint32_t>(*letters - '0') << 10});
+    }
+  }
+  return dump;
+}
+
+std::vector<std::size_t> ends(const char* letters, FrameBy by = FrameBy::display) {
+  const dump::Frames frames(dump_of(letters), by);
+  std::vector<std::size_t> list;
+  for (std::uint64_t n = 1; n <= frames.count(); ++n) list.push_back(frames.end(n));
+  return list;
+}
+
+using Ends = std::vector<std::size_t>;
+
+}  // namespace
+
+TEST_SUITE("dump") {
+  TEST_CASE("a frame that goes on over a VSync is one frame where the display did not change") {
+    CHECK(ends("0mdvdv") == Ends{6});
+    CHECK(ends("0mdv2dvdv0dv2v") == Ends{5, 10, 14});
+  }
+
+  TEST_CASE("by vsync every VSync ends a frame, and what follows the last is in none") {
+    CHECK(ends("0mdvdv", FrameBy::vsync) == Ends{4, 6});
+    CHECK(ends("dvd", FrameBy::vsync) == Ends{2});
+    CHECK(ends("dd", FrameBy::vsync) == Ends{2});
+  }
+
+  TEST_CASE("a frame keeps the VSyncs between the word that shows it and the next drawing") {
+    CHECK(ends("0md0vvd1vd0v") == Ends{6, 9, 12});
+  }
+
+  TEST_CASE(
+      "the first word that shows something ends the first frame, though the display stood there before") {
+    CHECK(ends("0md0vd1vd0v") == Ends{5, 8, 11});
+  }
+
+  TEST_CASE("in a dump that never shows a second buffer every word that shows one ends a frame") {
+    CHECK(ends("0md0vd0vd0v") == Ends{5, 8, 11});
+  }
+
+  TEST_CASE("telling the display again what it shows ends nothing where there are two buffers") {
+    CHECK(ends("md1vdv1dv0dv0dv1v") == Ends{4, 10, 17});
+  }
+
+  TEST_CASE("set-up ends no frame: before the mark, or without one before a VSync or a primitive") {
+    CHECK(ends("u0u1md0vd1v") == Ends{8, 11});
+    CHECK(ends("u0u1d0vd1v") == Ends{7, 10});
+    CHECK(ends("0vu1vu0v") == Ends{5, 8});
+  }
+
+  TEST_CASE("what is drawn after the last shown frame is a frame of its own") {
+    CHECK(ends("md0vd1vd") == Ends{4, 7, 8});
+  }
+
+  TEST_CASE("a dump without a command is one frame") {
+    CHECK(ends("") == Ends{0});
+    CHECK(ends("0v1v") == Ends{4});
+  }
+
+  TEST_CASE("a packet belongs to the frame it lies in") {
+    const dump::Frames frames(dump_of("md0vd1v"));
+    CHECK(frames.begin(1) == 0);
+    CHECK(frames.begin(2) == 4);
+    CHECK(frames.of_packet(0) == 1);
+    CHECK(frames.of_packet(3) == 1);
+    CHECK(frames.of_packet(4) == 2);
+    CHECK(frames.of_packet(7) == 3);
+  }
+}
