@@ -232,4 +232,10 @@ std::string describe_control(std::uint32_t word) {
   return "unknown, nothing";
 }
 
+std::string address_text(std::uint32_t address) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%06Xh", static_cast<unsigned>(address));
+  return text.data();
+}
+
 }  // namespace ot

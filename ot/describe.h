@@ -16,4 +16,7 @@ std::string describe(std::span<const std::uint32_t> words, std::uint64_t length)
 /// One line about a word of GP1: "display from 0,240".
 std::string describe_control(std::uint32_t word);
 
+/// An address of main RAM as all of Otter writes it: "0801F4h", six digits at least.
+std::string address_text(std::uint32_t address);
+
 }  // namespace ot

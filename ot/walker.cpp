@@ -1,6 +1,8 @@
 #include "ot/walker.h"
 
-#include <cstdio>
+#include <string>
+
+#include "ot/describe.h"
 
 namespace ot {
 namespace {
@@ -41,12 +43,6 @@ WalkResult describe_loop(std::span<const std::uint32_t> memory, std::uint32_t fi
   result.bad_tag = ahead.address;
   result.linked_from = ahead.from;
   return result;
-}
-
-std::string hex(std::uint32_t address) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%06Xh", static_cast<unsigned>(address));
-  return text;
 }
 
 /// Where the list ends, or how it fails to, unless that takes more than `max_steps`: then too_long, without
@@ -101,16 +97,18 @@ WalkResult validate(std::span<const std::uint32_t> memory, std::uint32_t first, 
 }
 
 std::string WalkResult::message() const {
-  const std::string from = linked_from == no_tag ? "the head of the list" : "tag " + hex(linked_from);
+  const std::string from =
+      linked_from == no_tag ? "the head of the list" : "tag " + address_text(linked_from);
   switch (end) {
     case WalkEnd::loop:
-      return "tag " + hex(bad_tag) + " is linked again from " + from + " (a loop)";
+      return "tag " + address_text(bad_tag) + " is linked again from " + from + " (a loop)";
     case WalkEnd::outside_ram:
-      return from + " links to " + hex(bad_tag) + ", outside RAM";
+      return from + " links to " + address_text(bad_tag) + ", outside RAM";
     case WalkEnd::payload_past_end:
-      return "the payload of tag " + hex(bad_tag) + " (linked from " + from + ") runs past the end of RAM";
+      return "the payload of tag " + address_text(bad_tag) + " (linked from " + from +
+             ") runs past the end of RAM";
     case WalkEnd::too_long:
-      return "the list goes on after " + std::to_string(nodes) + " tags, with tag " + hex(bad_tag) +
+      return "the list goes on after " + std::to_string(nodes) + " tags, with tag " + address_text(bad_tag) +
              " (linked from " + from + ")";
     case WalkEnd::done:
       break;

@@ -71,11 +71,7 @@ base::Result<void> Subject::trace_console(scene::Knobs knobs, gpu::Trace& to) {
   knobs.position = console.position;
   knobs.texture = console.texture;
   knobs.filter = console.filter;
-  knobs.colour = console.colour;
-  knobs.antialias = console.antialias;
-  knobs.fog = console.fog;
-  knobs.resolution = console.resolution;
-  return trace(knobs, to);
+  return trace_surfaces(knobs, to);
 }
 
 base::Result<void> Subject::trace_surfaces(scene::Knobs knobs, gpu::Trace& to) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstdio>
 #include <span>
 #include <utility>
 
@@ -100,12 +99,6 @@ class Cutter {
   std::uint32_t count_ = 0, address_ = 0, bucket_ = gpu::no_bucket;
   std::string origin_;
 };
-
-std::string address_text(std::uint32_t address) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%06Xh", address);
-  return text.data();
-}
 
 /// All of VRAM as one upload.
 std::vector<std::uint32_t> upload_of(const gpu::Vram& vram) {
@@ -215,7 +208,7 @@ Clip clip_of_list(const ot::MainRam& ram, std::uint32_t head, const std::optiona
                      bucket = (at - table->address) / 4;
                    }
                    if (payload.empty()) return;
-                   cutter.set_node(at, bucket, address_text(at));
+                   cutter.set_node(at, bucket, ot::address_text(at));
                    cutter.gp0(payload);
                  });
   cutter.finish();

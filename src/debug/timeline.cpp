@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdio>
 
 #include "base/clock.h"
+#include "ot/describe.h"
 
 namespace debug {
 namespace {
@@ -25,6 +25,7 @@ Timeline::~Timeline() = default;
 
 void Timeline::end_frames_by(dump::FrameBy by) {
   assert(is_read());
+  if (by == dump::FrameBy::vsync && frames_ == nullptr) return;  // as they do
   frames_ = by == dump::FrameBy::vsync ? nullptr : std::make_shared<const dump::Frames>(dump(), by);
   index_ = {};
   commands_of_ = 0;
@@ -152,10 +153,7 @@ Number Timeline::number_of(std::uint64_t frame, const Command& command) const {
 
 std::string Timeline::origin_of(const Command& command) const {
   const Node* const node = command.is_control ? nullptr : recording_.node_at(command.first);
-  if (node == nullptr) return {};
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%06Xh", static_cast<unsigned>(node->address));
-  return text.data();
+  return node == nullptr ? std::string() : ot::address_text(node->address);
 }
 
 Place Timeline::place_of(const Number& number) {

@@ -1,9 +1,8 @@
 #include "inspect/history.h"
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
+#include "base/printed.h"
 #include "inspect/truth.h"
 
 namespace inspect {
@@ -11,13 +10,6 @@ namespace {
 
 using gpu::Kind;
 using gpu::Primitive;
-
-template <class... T>
-std::string format(const char* pattern, T... values) {
-  std::array<char, 256> line{};
-  std::snprintf(line.data(), line.size(), pattern, values...);
-  return line.data();
-}
 
 std::string kind_of(const Primitive& p) {
   switch (p.kind) {
@@ -42,8 +34,8 @@ class Historian {
       : report_(report), trace_(trace), pixel_(pixel), surfaces_(trace) {}
 
   std::vector<std::string> tell(int x, int y) {
-    lines_.push_back(format("pixel (%d,%d) of frame %u, VRAM (%u,%u)", x, y, report_.frame,
-                            pixel_ % gpu::Vram::width, pixel_ / gpu::Vram::width));
+    lines_.push_back(base::printed("pixel (%d,%d) of frame %u, VRAM (%u,%u)", x, y, report_.frame,
+                                   pixel_ % gpu::Vram::width, pixel_ / gpu::Vram::width));
     for (const gpu::Event& event : trace_.history) {
       if (event.pixel == pixel_) all_.push_back(as_fragment(event));
     }
@@ -64,7 +56,7 @@ class Historian {
     return name(f.draw) + half_name(is_folded(all_, f.draw), f.half);
   }
   [[nodiscard]] std::string at_depth(const Fragment& f) const {
-    return f.draw == nobody ? name(f) : name(f) + format(" at depth %.4f", surfaces_.depth(f, pixel_));
+    return f.draw == nobody ? name(f) : name(f) + base::printed(" at depth %.4f", surfaces_.depth(f, pixel_));
   }
   static Fragment as_fragment(const gpu::Event& e) {
     return {e.draw, e.depth, e.fragment, e.half, e.blended, e.rejected, false};
@@ -73,21 +65,21 @@ class Historian {
   void tell(const gpu::Event& event) {
     const Primitive& p = trace_.draws[event.draw];
     const Fragment f = as_fragment(event);
-    std::string line = format("  %zu. %s %s ", lines_.size(), name(f).c_str(), kind_of(p).c_str());
+    std::string line = base::printed("  %zu. %s %s ", lines_.size(), name(f).c_str(), kind_of(p).c_str());
     if (event.rejected) {
-      line += format("lost the depth test with %04X", event.fragment);
+      line += base::printed("lost the depth test with %04X", event.fragment);
     } else if (event.blended) {
-      line += format("blended %04X with %04X to %04X", event.fragment, event.before, event.after);
+      line += base::printed("blended %04X with %04X to %04X", event.fragment, event.before, event.after);
     } else {
-      line += format("wrote %04X over %04X", event.after, event.before);
+      line += base::printed("wrote %04X over %04X", event.after, event.before);
     }
     if (!event.rejected) blended_over_ = event.blended ? blended_over_ + 1 : 0;
     begin_anew(event, p);
     if (p.kind == Kind::polygon && p.has_depth) {
       fragments_.push_back(f);
       ++all_of_depth_;
-      line += format(", depth %.4f", surfaces_.depth(f, pixel_));
-      if (event.depth != 0) line += format(", stored key %u", event.depth);
+      line += base::printed(", depth %.4f", surfaces_.depth(f, pixel_));
+      if (event.depth != 0) line += base::printed(", stored key %u", event.depth);
     }
     lines_.push_back(std::move(line));
   }
@@ -136,7 +128,8 @@ class Historian {
   }
 
   [[nodiscard]] std::string what_is_right(const Verdict& v) const {
-    const std::string over = blended_over_ == 0 ? "" : format(" under %zu blended over it", blended_over_);
+    const std::string over =
+        blended_over_ == 0 ? "" : base::printed(" under %zu blended over it", blended_over_);
     const bool is_erased = background_ != nobody && trace_.draws[background_].kind > Kind::line;
     const std::string hidden = is_erased ? "erased" : "covered by a layer";
     if (v.winner.draw != nobody) {

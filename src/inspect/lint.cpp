@@ -2,23 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 
 #include "gpu/columns.h"
 #include "gpu/number.h"
+#include "ot/describe.h"
 #include "ot/gp0.h"
 #include "ot/walker.h"
 
 namespace inspect {
 namespace {
-
-std::string hex(std::uint32_t value) {
-  std::array<char, 16> text{};
-  std::snprintf(text.data(), text.size(), "%06Xh", value);
-  return text.data();
-}
 
 struct Node {
   std::uint32_t address, words;  // words: tag and payload
@@ -70,7 +64,7 @@ class ListLinter {
   void walk_end(const ot::WalkResult& walk) {
     if (walk) return;
     constexpr std::array kinds{"", "loop", "outside-ram", "payload-past-end"};
-    add(kinds[static_cast<std::size_t>(walk.end)], hex(walk.bad_tag), walk.message());
+    add(kinds[static_cast<std::size_t>(walk.end)], ot::address_text(walk.bad_tag), walk.message());
   }
 
   void table_entries() {
@@ -83,7 +77,7 @@ class ListLinter {
       if (skipped++ == 0) first = k;
     }
     if (skipped == 0) return;
-    add("unreachable-bucket", hex(table_->address + 4 * first),
+    add("unreachable-bucket", ot::address_text(table_->address + 4 * first),
         std::to_string(skipped) + " of " + std::to_string(table_->length) +
             " buckets are not in the list, the first is " + std::to_string(first));
   }
@@ -91,8 +85,9 @@ class ListLinter {
   void linked_twice() {
     for (const auto& [target, from] : sources_) {
       if (from.size() < 2) continue;
-      add("linked-twice", hex(target),
-          "tags " + hex(*from.begin()) + " and " + hex(*from.rbegin()) + " both link to it");
+      add("linked-twice", ot::address_text(target),
+          "tags " + ot::address_text(*from.begin()) + " and " + ot::address_text(*from.rbegin()) +
+              " both link to it");
     }
   }
 
@@ -103,8 +98,8 @@ class ListLinter {
       const Node &low = nodes_[i - 1], &high = nodes_[i];
       const std::uint32_t end = low.address + 4 * low.words;
       if (low.address != high.address && end > high.address) {
-        add("overlap", hex(high.address),
-            "the packet at " + hex(low.address) + " reaches to " + hex(end - 4));
+        add("overlap", ot::address_text(high.address),
+            "the packet at " + ot::address_text(low.address) + " reaches to " + ot::address_text(end - 4));
       }
     }
   }
@@ -127,8 +122,8 @@ class ListLinter {
                           opcode = ram_.read(packet + 4) >> 24;
       if (length == 0 || length > 16 || opcode < 0x20 || opcode > 0x7f) continue;
       if (auto item = lint_bucket(bucket, table_->length)) {
-        item->at = hex(static_cast<std::uint32_t>(address));
-        item->text += "; the packet at " + hex(packet) + " hangs there and is never drawn";
+        item->at = ot::address_text(static_cast<std::uint32_t>(address));
+        item->text += "; the packet at " + ot::address_text(packet) + " hangs there and is never drawn";
         items_.push_back(std::move(*item));
       }
     }

@@ -13,6 +13,7 @@
 #include "app/commands/json.h"
 #include "base/file_kind.h"
 #include "base/message.h"
+#include "base/printed.h"
 #include "debug/blame.h"
 #include "display/compare.h"
 #include "display/png.h"
@@ -23,13 +24,6 @@ namespace app {
 namespace {
 
 namespace fs = std::filesystem;
-
-template <class... T>
-std::string printed(const char* pattern, T... values) {
-  std::array<char, 192> line{};
-  std::snprintf(line.data(), line.size(), pattern, values...);
-  return line.data();
-}
 
 /// A pixel that is not as expected.
 struct WrongPixel {
@@ -44,7 +38,7 @@ struct Compared {
   std::vector<WrongPixel> differences;
 };
 
-std::string hex_colour(base::Rgba c) { return printed("%02X%02X%02X", c.r, c.g, c.b); }
+std::string hex_colour(base::Rgba c) { return base::printed("%02X%02X%02X", c.r, c.g, c.b); }
 
 bool is_compared(const std::optional<base::Picture>& mask, int x, int y) {
   return !mask || mask->at(x, y).r >= 128;
@@ -56,8 +50,8 @@ base::Result<std::optional<base::Picture>> read_mask(const std::string& path, in
   if (!mask) return tl::make_unexpected(mask.error());
   if (mask->width != width || mask->height != height)
     return base::fail(path + ": " +
-                      printed("%d x %d pixels, expected the %d x %d of what is compared", mask->width,
-                              mask->height, width, height));
+                      base::printed("%d x %d pixels, expected the %d x %d of what is compared", mask->width,
+                                    mask->height, width, height));
   return std::move(*mask);
 }
 
@@ -76,7 +70,7 @@ base::Result<Compared> compare_vram(const gpu::Gpu& gpu, const std::string& path
       const unsigned got = gpu.vram().at(x, y), wanted = std::as_const(expected).at(x, y);
       if (got != wanted)
         result.differences.push_back({x, y, static_cast<std::uint32_t>(gpu::Vram::offset(x, y)),
-                                      printed("%04X", got), printed("%04X", wanted)});
+                                      base::printed("%04X", got), base::printed("%04X", wanted)});
     }
   }
   return result;
@@ -96,9 +90,10 @@ base::Result<Compared> compare_picture(const gpu::Gpu& gpu, const std::string& p
   const auto area = display::area_of(gpu.display());
   const bool is_vram = expected->width == gpu::Vram::width && expected->height == gpu::Vram::height;
   if (!is_vram && (expected->width != area.width || expected->height != area.height))
-    return base::fail(path + ": " +
-                      printed("%d x %d pixels, expected 1024 x 512 of VRAM or %d x %d, the display area",
-                              expected->width, expected->height, area.width, area.height));
+    return base::fail(
+        path + ": " +
+        base::printed("%d x %d pixels, expected 1024 x 512 of VRAM or %d x %d, the display area",
+                      expected->width, expected->height, area.width, area.height));
   const auto mask = read_mask(mask_path, expected->width, expected->height);
   if (!mask) return tl::make_unexpected(mask.error());
   const int exact_bits = area.is_24_bit && !is_vram ? 8 : 5;

@@ -18,6 +18,7 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
 #include "app/commands/without_depth.h"
+#include "app/order_of.h"
 #include "app/source.h"
 #include "app/viewer.h"
 #include "base/write_file.h"
@@ -65,11 +66,6 @@ class FrameSource {
   [[nodiscard]] virtual FrameRange frames() const = 0;
 };
 
-inspect::Order order_of(const scene::Knobs& knobs) {
-  if (knobs.visibility == scene::Visibility::zbuffer) return inspect::Order::depth;
-  return knobs.visibility == scene::Visibility::bsp ? inspect::Order::exact : inspect::Order::list;
-}
-
 class SceneSource : public FrameSource {
  public:
   SceneSource(scene::Scene scene, const scene::Knobs& knobs, CameraOffset view)
@@ -89,8 +85,9 @@ class SceneSource : public FrameSource {
     if (!stats) return tl::make_unexpected(stats.error());
     if (trace.is_full)
       return base::fail(name_ + ": frame " + std::to_string(number) + ": " + trace.limit_text());
-    Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
-                    machine_.vram(), !stats->was_stopped};
+    Watched watched{
+        inspect::inspect(trace, {.order = order_of(knobs_.visibility), .scene = name_, .frame = number}),
+        machine_.vram(), !stats->was_stopped};
     add_lint(*stats, watched.report);
     return watched;
   }
@@ -141,9 +138,10 @@ class RecordingSource : public FrameSource {
     if (auto judged = judge_without_depth(name_, knobs_, {watched_frame.end, number}); !judged)
       return tl::make_unexpected(judged.error());
     const auto vram = timeline_->gpu().vram().pixels();
-    Watched watched{inspect::inspect(trace, {.order = order_of(knobs_), .scene = name_, .frame = number}),
-                    {vram.begin(), vram.end()},
-                    !Interrupt::was_asked()};
+    Watched watched{
+        inspect::inspect(trace, {.order = order_of(knobs_.visibility), .scene = name_, .frame = number}),
+        {vram.begin(), vram.end()},
+        !Interrupt::was_asked()};
     add_lint(watched.report.lint);
     return watched;
   }

@@ -195,9 +195,10 @@ base::Result<int> replay(const ReplayOptions& options) {
   } else if (options.json != "-") {
     print_summary(options.dump, dump);
   }
-  const dump::Frames frames(dump, dump::frame_by_named(options.frame_by));
   dump::ReplayOptions limits = end->limits;
-  limits.frames = &frames;
+  std::optional<dump::Frames> frames;  // only a z-buffer begins and ends them
+  if (options.knobs.visibility == scene::Visibility::zbuffer)
+    limits.frames = &frames.emplace(dump, dump::frame_by_named(options.frame_by));
   std::vector<std::uint32_t> readback;
   gpu::Gpu gpu;
   gpu.set_depth(scene::depth_options(options.knobs));

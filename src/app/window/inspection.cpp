@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "app/order_of.h"
 #include "inspect/history.h"
 #include "inspect/maps.h"
 
@@ -34,19 +35,6 @@ base::Picture picture_of(base::Picture image, int height) {
 }
 
 }  // namespace
-
-inspect::Order order_of(scene::Visibility visibility) {
-  switch (visibility) {
-    case scene::Visibility::ot:
-    case scene::Visibility::sorted:
-      return inspect::Order::list;
-    case scene::Visibility::bsp:
-      return inspect::Order::exact;
-    case scene::Visibility::zbuffer:
-      return inspect::Order::depth;
-  }
-  return inspect::Order::list;
-}
 
 std::string describe_draw(std::size_t number, const gpu::Primitive& primitive) {
   std::string text = "draw " + std::to_string(number) + ": ";

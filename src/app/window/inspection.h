@@ -54,9 +54,6 @@ class Inspection {
   mutable std::optional<inspect::Report> report_;
 };
 
-/// What decides between two polygons of a frame in this mode.
-inspect::Order order_of(scene::Visibility visibility);
-
 /// "draw 12: textured quad, semi-transparent, bucket 512": a drawing command for people.
 std::string describe_draw(std::size_t number, const gpu::Primitive& primitive);
 

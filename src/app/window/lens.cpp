@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/order_of.h"
 #include "app/window/inspection.h"
 #include "debug/number.h"
 #include "display/scanout.h"

@@ -2,22 +2,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <string_view>
 
 #include "app/commands/describe.h"
+#include "base/printed.h"
 
 namespace app {
 namespace {
 
 constexpr std::size_t gap = 2;
-
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  return text.data();
-}
 
 const char* pace_name(Pace pace) {
   constexpr std::array names{"vsync", "60 Hz", "50 Hz", "slow"};
@@ -59,9 +52,9 @@ std::vector<StatusPiece> status_pieces(const WindowState& state, const Status& s
   if (status.different) pieces.push_back({with_commas(*status.different) + " differ", Tone::mark});
   const auto add = [&pieces](std::string text) { pieces.push_back({std::move(text), Tone::dim, false}); };
   add(with_commas(status.stats.primitives) + " primitives");
-  add(format("GTE %.2f  OT %.2f  raster %.2f ms", status.stats.gte_ms, status.stats.ot_ms,
-             status.stats.raster_ms));
-  if (!state.paused) add(format("%.0f/s %s", status.frames_per_second, pace_name(state.pace)));
+  add(base::printed("GTE %.2f  OT %.2f  raster %.2f ms", status.stats.gte_ms, status.stats.ot_ms,
+                    status.stats.raster_ms));
+  if (!state.paused) add(base::printed("%.0f/s %s", status.frames_per_second, pace_name(state.pace)));
   return pieces;
 }
 
