@@ -29,7 +29,7 @@ void Keyframes::add(Place place, bool is_in_frame, std::span<const std::byte> st
 
 std::uint32_t Keyframes::keep(const std::byte* block, const Key* like, std::size_t number) {
   const auto is_equal = [&](std::uint32_t index) {
-    return std::memcmp(pool_[index].data(), block, block_bytes) == 0;
+    return std::memcmp(pool_[index]->data(), block, block_bytes) == 0;
   };
   if (like != nullptr && is_equal(like->blocks[number])) {
     ++uses_[like->blocks[number]];
@@ -51,15 +51,17 @@ std::uint32_t Keyframes::keep(const std::byte* block, const Key* like, std::size
     free_.pop_back();
     uses_[index] = 1;
   }
-  std::memcpy(pool_[index].data(), block, block_bytes);
+  pool_[index] = std::make_unique<Block>();
+  std::memcpy(pool_[index]->data(), block, block_bytes);
   by_hash_[hash] = index;  // of two blocks with one hash the later one is found
   return index;
 }
 
 void Keyframes::release(std::uint32_t block) {
   if (--uses_[block] != 0) return;
-  const auto known = by_hash_.find(hash_of(pool_[block]));
+  const auto known = by_hash_.find(hash_of(*pool_[block]));
   if (known != by_hash_.end() && known->second == block) by_hash_.erase(known);
+  pool_[block].reset();
   free_.push_back(block);
 }
 
@@ -89,7 +91,7 @@ std::vector<std::byte> Keyframes::state_of(const Key& key) const {
   std::ranges::copy(key.head, state.begin());
   std::byte* to = state.data() + key.head.size();
   for (const auto block : key.blocks) {
-    std::memcpy(to, pool_[block].data(), block_bytes);
+    std::memcpy(to, pool_[block]->data(), block_bytes);
     to += block_bytes;
   }
   return state;
@@ -98,16 +100,17 @@ std::vector<std::byte> Keyframes::state_of(const Key& key) const {
 std::uint16_t Keyframes::pixel(const Key& key, std::uint32_t at) const {
   constexpr std::size_t vram_blocks = gpu::Vram::size * 2 / block_bytes;
   const std::size_t byte = std::size_t{at} * 2;
-  const Block& block = pool_[key.blocks[key.blocks.size() - vram_blocks + byte / block_bytes]];
+  const Block& block = *pool_[key.blocks[key.blocks.size() - vram_blocks + byte / block_bytes]];
   return static_cast<std::uint16_t>(std::to_integer<unsigned>(block[byte % block_bytes]) |
                                     std::to_integer<unsigned>(block[byte % block_bytes + 1]) << 8);
 }
 
 std::uint64_t Keyframes::bytes() const {
-  constexpr std::uint64_t map_entry = 48;
+  constexpr std::uint64_t map_entry = 48, heap = 16;  // of the allocator, beside what is asked for
   const std::uint64_t refs = keys_.empty() ? 0 : keys_.size() * (keys_[0].blocks.size() * 4 + sizeof(Key));
-  // A vector of blocks may have room for twice as many.
-  return head_bytes_ + refs + pool_.capacity() * (block_bytes + 8) + by_hash_.size() * map_entry;
+  const std::uint64_t blocks = pool_.size() - free_.size();
+  return head_bytes_ + refs + blocks * (block_bytes + heap) + pool_.capacity() * 16 +
+         by_hash_.size() * map_entry;
 }
 
 }  // namespace debug

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -49,9 +50,10 @@ class Keyframes {
   void release(std::uint32_t block);
 
   std::vector<Key> keys_;  // by place
-  std::vector<Block> pool_;
+  // Each block by itself, so that what thinning frees is free.
+  std::vector<std::unique_ptr<Block>> pool_;
   std::vector<std::uint32_t> uses_;  // of each block of the pool
-  std::vector<std::uint32_t> free_;  // blocks that nobody uses
+  std::vector<std::uint32_t> free_;  // places in the pool that have no block
   std::unordered_map<std::uint64_t, std::uint32_t> by_hash_;
   std::uint64_t head_bytes_ = 0;
 };

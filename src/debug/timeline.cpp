@@ -103,23 +103,28 @@ std::uint64_t Timeline::allowance() const {
 void Timeline::keep_states(Place until, double deadline_ms) {
   double last = base::now_ms();
   while (indexer_->place() < until && last < deadline_ms) {
+    // Where keeping a state takes long, most time still goes into drawing.
+    const double spacing_ms = std::max(spacing_ms_, 2 * keeping_ms_);
     indexer_->run(until, [&, words = 0]() mutable {
       if (++words % 8 != 0) return true;
-      return base::now_ms() - last + since_state_ms_ < spacing_ms_ && base::now_ms() < deadline_ms;
+      return base::now_ms() - last + since_state_ms_ < spacing_ms && base::now_ms() < deadline_ms;
     });
     const double now = base::now_ms();
     since_state_ms_ += now - last;
     last = now;
-    if (since_state_ms_ >= spacing_ms_) keep_state();
+    if (since_state_ms_ >= spacing_ms) keep_state();
   }
 }
 
 void Timeline::keep_state() {
+  const double begun = base::now_ms();
   keyframes_.add(indexer_->place(), indexer_->is_in_frame(), indexer_->gpu().save());
   since_state_ms_ = 0;
-  if (keyframes_.bytes() <= allowance() || keyframes_.size() < 4) return;
-  keyframes_.thin();
-  spacing_ms_ *= 2;
+  while (keyframes_.bytes() > allowance() && keyframes_.size() >= 4) {
+    keyframes_.thin();
+    spacing_ms_ *= 2;
+  }
+  keeping_ms_ = base::now_ms() - begun;
 }
 
 const std::vector<Command>& Timeline::commands(std::uint64_t frame) {

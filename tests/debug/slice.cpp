@@ -9,6 +9,7 @@
 
 #include "debug/slice_writer.h"
 #include "streams.h"
+#include "tests/amount.h"
 #include "tests/vectors.h"
 
 namespace {
@@ -222,7 +223,7 @@ TEST_SUITE("debug") {
       REQUIRE(recording);
       Timeline timeline(std::move(*recording));
       REQUIRE(timeline.read_all());
-      for (int n = 1; n <= 10; ++n) {
+      for (int n = 1; n <= tests::amount(10, 2); ++n) {
         const std::uint64_t frame = 55 + 50 * static_cast<std::uint64_t>(n);
         const auto pixel = at(n * 61 % 240 + 8, n * 37 % 200 + 8);
         const auto slice = debug::slice(timeline, frame, std::vector{pixel});
