@@ -10,6 +10,7 @@
 #include "sdk/depth_notes.h"
 #include "sdk/feed.h"
 #include "sdk/handover.h"
+#include "sdk/memory.h"
 #include "sdk/pads.h"
 #include "sdk/program_lint.h"
 
@@ -21,6 +22,7 @@ struct PadBuffer {
 };
 
 struct Console {
+  ProgramMemory memory;                ///< of the program
   ot::MainRam ram{ot::RamSize::mib8};  ///< the memory as it was when the last list was drawn
   gpu::Gpu gpu;
   gte::Registers gte;

@@ -2,6 +2,7 @@
 
 #include <new>
 
+#include "base/printed.h"
 #include "gte/batch.h"
 #include "ot/gp0.h"
 #include "sdk/memory.h"
@@ -115,6 +116,17 @@ void DepthNotes::next_list() {
   older_values_ = std::move(values_);
   values_.clear();
   is_fresh_ = false;
+}
+
+std::string to_text(const DepthShares& shares) {
+  const auto all = shares.polygons();
+  const auto percent = [all](std::uint64_t part) {
+    return base::printed("%.1f %%",
+                         all == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(all));
+  };
+  return "depth of " + std::to_string(all) + " polygons: " + percent(shares.by_address) + " by address, " +
+         percent(shares.by_value) + " by value, " + percent(shares.by_packet) + " by packet, " +
+         percent(shares.none) + " none (" + std::to_string(shares.partly) + " of them partly known)";
 }
 
 }  // namespace sdk

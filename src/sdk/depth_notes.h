@@ -20,6 +20,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <unordered_map>
 
 #include "gte/commands.h"
@@ -38,6 +39,9 @@ struct DepthShares {
   [[nodiscard]] std::uint64_t polygons() const { return by_address + by_value + by_packet + none; }
   bool operator==(const DepthShares&) const = default;
 };
+
+/// "depth of 120 polygons: 100.0 % by address, ...".
+std::string to_text(const DepthShares& shares);
 
 class DepthNotes {
  public:

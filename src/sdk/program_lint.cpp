@@ -32,10 +32,16 @@ std::optional<std::size_t> ProgramLint::table_of(std::uint32_t entry) const {
   return last_table_ = static_cast<std::size_t>(at - tables_.begin());
 }
 
-std::optional<std::uint32_t> ProgramLint::bucket(std::uint32_t entry) const {
-  const auto table = table_of(entry);
-  if (!table) return std::nullopt;
-  return (entry - tables_[*table].address) / 4;
+std::optional<ProgramLint::Entry> ProgramLint::entry(std::uint32_t address) const {
+  const auto at = table_of(address);
+  if (!at) return std::nullopt;
+  const auto& table = tables_[*at];
+  return Entry{table.address, table.length, (address - table.address) / 4};
+}
+
+CallSite ProgramLint::site_of(std::uint32_t packet) const {
+  const auto at = sites_.find(packet);
+  return at == sites_.end() ? nullptr : at->second;
 }
 
 void ProgramLint::clear_table(std::uint32_t address, std::uint32_t length, CallSite site) {
@@ -111,6 +117,7 @@ void ProgramLint::link(std::uint32_t entry, std::uint32_t first, std::uint32_t l
     note("flag-ignored", site, "a vertex overflowed (FLAG bit 31) and nobody looked");
     flag_pending_ = false;
   }
+  sites_[first] = site;
   check_overrun(last, last + bytes, site);
   const auto table = table_of(entry);
   if (!table) return check_range(entry, site);

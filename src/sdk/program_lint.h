@@ -59,8 +59,14 @@ class ProgramLint {
   /// In the order in which they were first found.
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// The bucket that `entry` is, counted in its table's entries.
-  [[nodiscard]] std::optional<std::uint32_t> bucket(std::uint32_t entry) const;
+  /// The table, cleared by ClearOTag or ClearOTagR, that holds the word at `address`, and which of its
+  /// entries that is.
+  struct Entry {
+    std::uint32_t table = 0, length = 0, bucket = 0;
+  };
+  [[nodiscard]] std::optional<Entry> entry(std::uint32_t address) const;
+  /// Where the packet was linked; nullptr: not known.
+  [[nodiscard]] CallSite site_of(std::uint32_t packet) const;
 
  private:
   struct Table {
@@ -84,6 +90,7 @@ class ProgramLint {
   std::vector<Table> tables_;
   mutable std::size_t last_table_ = 0;
   std::unordered_map<std::uint32_t, Place> places_;
+  std::unordered_map<std::uint32_t, CallSite> sites_;    // of packets
   std::map<std::uint32_t, std::uint32_t> environments_;  // begin, end
   bool flag_pending_ = false;
   CallSite draw_site_ = nullptr;

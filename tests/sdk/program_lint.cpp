@@ -168,7 +168,11 @@ TEST_SUITE("sdk") {
 
   TEST_CASE("the bucket of an entry is counted from its table's begin") {
     Linted lint;
-    CHECK(lint.bucket(table + 20) == 5);
-    CHECK_FALSE(lint.bucket(table + 4 * length));
+    const auto entry = lint.entry(table + 20);
+    REQUIRE(entry);
+    CHECK(entry->table == table);
+    CHECK(entry->length == length);
+    CHECK(entry->bucket == 5);
+    CHECK_FALSE(lint.entry(table + 4 * length));
   }
 }

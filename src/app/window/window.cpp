@@ -22,6 +22,7 @@
 #include "app/window/layout.h"
 #include "app/window/lens.h"
 #include "app/window/overlay.h"
+#include "app/window/pad_keys.h"
 #include "app/window/panel_frame.h"
 #include "app/window/screen.h"
 #include "app/window/sdl.h"
@@ -114,6 +115,7 @@ class Window {
   [[nodiscard]] base::Picture shown_picture() const;
   void save_picture();
   void save_window();
+  void record();
   void told_saved(const base::Result<void>& written, const std::filesystem::path& path);
   base::Result<void> write_window(const std::filesystem::path& path);
   [[nodiscard]] bool is_at_rest() const;
@@ -245,6 +247,9 @@ void Window::update() {
   let_pass(state_, passed);
   input_.move_camera(now, std::min(passed, 0.1), show_.machine(), state_);
   follow_recording();
+  if (auto* subject = show_.machine(); subject != nullptr && subject->wants_pad()) {
+    subject->hold(held_pad(ImGui::GetIO().WantTextInput));
+  }
   const auto updated = show_.update(state_);
   if (!updated) {
     if (message_ != updated.error().text) say(updated.error().text, true);
@@ -291,8 +296,12 @@ void Window::follow_recording() {
   if (subject == nullptr || show_.scene() != state_.scene) return;
   const auto last = subject->last_frame();
   state_.recorded.last = last.value_or(0);
+  state_.recorded.is_live = subject->is_live();
+  state_.recorded.has_ended = subject->has_ended();
+  state_.recorded.wants_pad = subject->wants_pad();
   if (!last) return;
-  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, *last);
+  const bool goes_on = subject->is_live() && !subject->has_ended();
+  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, *last + (goes_on ? 1 : 0));
   constexpr double indexing_ms_per_frame = 8;
   if (is_indexing_) is_indexing_ = subject->index_some(indexing_ms_per_frame);
   if (show_.different().value_or(0) != 0) {
@@ -579,6 +588,15 @@ base::Result<void> Window::write_window(const std::filesystem::path& path) {
   return display::write_png(path, picture);
 }
 
+// Begins or ends it.
+void Window::record() {
+  auto* subject = show_.machine();
+  if (subject == nullptr) return;
+  const auto path = free_name(show_.scene_name(), state_.frame, "", ".psxgpu");
+  const auto done = subject->record(std::filesystem::absolute(path).string());
+  say(done ? *done : done.error().text, !done);
+}
+
 void Window::told_saved(const base::Result<void>& written, const std::filesystem::path& path) {
   if (!written) return say(written.error().text, true);
   std::error_code ignored;
@@ -604,7 +622,9 @@ void Window::save_window() {
 
 // At rest nothing changes on the screen until something happens outside.
 bool Window::is_at_rest() const {
-  const bool is_busy = is_measuring_ || input_.is_moving() || (is_indexing_ && state_.recorded.last != 0);
+  const bool is_behind = show_.machine() != nullptr && show_.machine()->is_behind();
+  const bool is_busy =
+      is_measuring_ || is_behind || input_.is_moving() || (is_indexing_ && state_.recorded.last != 0);
   return state_.paused && redraws_ == 0 && !is_busy && !options_.frames;
 }
 
@@ -660,6 +680,7 @@ base::Result<int> Window::run() {
     }
     if (std::exchange(state_.save_window, false)) save_window();
     if (std::exchange(state_.save_picture, false)) save_picture();
+    if (std::exchange(state_.record, false)) record();
     SDL_RenderPresent(renderer_.get());
     if (is_last) break;
     wait_for_next();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array key_bindings{
     Binding{KeyAction::switch_visibility, "Tab", "", "a",
-            "switch between the ordering key_bindings and the z-buffer"},
+            "switch between the ordering table and the z-buffer"},
     Binding{KeyAction::split, "V", "", "b", "split screen: both, with a divider to drag"},
     Binding{KeyAction::differences, "D", "", "x", "show the pixels on which the two differ"},
     Binding{KeyAction::next_visibility, "M", "", "", "next mode: ot, sorted, bsp, zbuffer"},
@@ -52,6 +52,7 @@ constexpr std::array key_bindings{
     Binding{KeyAction::save_picture, "F12", "", "",
             "save the picture, pixel for pixel, into the current folder"},
     Binding{KeyAction::save_window, "Shift F12", "", "", "save the whole window, likewise"},
+    Binding{KeyAction::record, "F8", "", "", "program: record what it sends as a dump; again: stop"},
     Binding{KeyAction::quit, "Q", "", "", "quit"},
 };
 
@@ -63,6 +64,9 @@ constexpr std::array held{
     Gesture{"W A S D R F (hold), triggers", "fly: forward, left, back, right, up, down"},
     Gesture{"right drag, right stick", "look round"},
     Gesture{"mouse wheel", "nearer, farther"},
+    Gesture{"program: arrows, W A S D", "its pad: directions; triangle, square, cross, circle"},
+    Gesture{"program: R F, U J", "its pad: L1 and L2, R1 and R2"},
+    Gesture{"program: Return, Backspace", "its pad: start, select"},
 };
 
 template <class E>
@@ -293,6 +297,9 @@ void handle(WindowState& state, Asked asked) {
     case KeyAction::save_window:
       state.save_window = true;
       break;
+    case KeyAction::record:
+      state.record = true;
+      break;
     case KeyAction::quit:
       state.quit = true;
       break;
@@ -332,6 +339,11 @@ void let_pass(WindowState& state, double seconds) {
   state.late = std::max(due - whole, 0.0) / frames_per_second;
   if (!is_recorded) return;
   const auto& recorded = state.recorded;
+  if (recorded.is_live && !recorded.to) {
+    state.frame = std::min(state.frame, recorded.last + (recorded.has_ended ? 0 : 1));
+    if (recorded.has_ended && state.frame == recorded.last) state.paused = true;
+    return;
+  }
   const bool is_outside = state.frame < recorded.first_played() || state.frame > recorded.last_played();
   if (is_outside) state.frame = recorded.first_played();
 }

@@ -59,6 +59,7 @@ enum class KeyAction : std::uint8_t {
   fullscreen,
   save_picture,
   save_window,
+  record,
   quit,
 };
 
@@ -139,6 +140,9 @@ struct VramState {
 struct Recorded {
   std::int64_t last = 0;                 ///< from 1; 0: it is a scene
   std::optional<std::int64_t> from, to;  ///< the loop, ends included
+  bool is_live = false;                  ///< frames are made behind the last
+  bool has_ended = false;                ///< no more of them
+  bool wants_pad = false;                ///< the keys of app::pad_keys are the program's
   [[nodiscard]] std::int64_t first_played() const { return from.value_or(1); }
   [[nodiscard]] std::int64_t last_played() const { return to.value_or(last); }
 };
@@ -172,6 +176,7 @@ struct WindowState {
   bool close_menu = false;    ///< asked for; the window does it and clears this
   bool save_picture = false;  ///< asked for, likewise
   bool save_window = false;   ///< asked for, likewise
+  bool record = false;        ///< asked for, likewise
   bool quit = false;
   CameraOffset camera;
 
@@ -193,7 +198,8 @@ void pause_at(WindowState& state, std::int64_t frame);
 
 /// Lets `seconds` of real time pass, unless paused: vsync counts 60 frames a second, a fixed pace one per
 /// call, or of a scene at 50 Hz 1.2. A recording begins again behind its last frame, or behind that of the
-/// loop. A stall (a moved or minimised window) counts as a tenth of a second.
+/// loop; what is live goes on by one frame a call at most, and rests when it has ended. A stall (a moved or
+/// minimised window) counts as a tenth of a second.
 void let_pass(WindowState& state, double seconds);
 
 }  // namespace app
