@@ -55,6 +55,9 @@ constexpr std::int16_t half(int value) { return static_cast<std::int16_t>(value)
 /// On the program's thread, after a vertical blank: controllers, then the program's callback.
 void after_blank();
 
+/// The three timers pass the time of one blank, and their callbacks run.
+void run_timers();
+
 /// False, and a finding at `site`, if `p` is null or no address at all.
 bool is_usable(const void* p, const char* call, CallSite site);
 

@@ -30,6 +30,10 @@ bool can_link(const void* p, const char* what, CallSite site) {
 
 /// A tag without a payload may be the entry of a table, on which the packets to come hang.
 void hang(std::uint32_t tag, Feed::Hook& hook) {
+  if (hook.length != 0 && tag >= hook.address && (tag - hook.address) / 4 < hook.length) {
+    hook.bucket = (tag - hook.address) / 4;
+    return;
+  }
   if (const auto entry = the_console().lint.entry(tag)) hook = {entry->bucket, entry->table, entry->length};
 }
 

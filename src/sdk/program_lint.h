@@ -75,6 +75,7 @@ class ProgramLint {
     std::uint32_t linked = 0;  // packets since it was cleared
     std::uint32_t drawn = 0;   // of those
     bool is_being_drawn = false;
+    std::vector<std::size_t> nested{};  // tables that hang in it
     [[nodiscard]] std::uint32_t end() const { return address + 4 * length; }
   };
   struct Place {  // of a packet
@@ -85,6 +86,7 @@ class ProgramLint {
   [[nodiscard]] std::optional<std::size_t> table_of(std::uint32_t entry) const;
   void check_range(std::uint32_t entry, CallSite site);
   void check_overrun(std::uint32_t begin, std::uint32_t end, CallSite site);
+  void mark_drawn(std::size_t table, int depth);
   void check_place(std::uint32_t packet, std::size_t table, CallSite site);
 
   std::vector<Table> tables_;

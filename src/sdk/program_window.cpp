@@ -49,7 +49,6 @@ base::Result<int> show_in_window(const Settings& settings, const std::string& na
   const auto remembered = options.settings ? app::read_settings(*options.settings) : app::Settings{};
   first.knobs = remembered.knobs;
   app::overrule(first.knobs, settings.knobs, asked.named_knobs);
-  first.knobs.without_depth = settings.knobs.without_depth;
   if (first.knobs.visibility != scene::Visibility::zbuffer) first.knobs.visibility = scene::Visibility::ot;
   app::set_visibility(first, first.knobs.visibility);
   first.dock = remembered.dock;

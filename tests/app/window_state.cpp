@@ -279,6 +279,18 @@ TEST_SUITE("window") {
     CHECK(state.frame == 8);  // which is not there yet
   }
 
+  TEST_CASE("N makes a frame of a program that there was not, and none of one that has ended") {
+    WindowState state;
+    state.frame = 7;
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_live = true};
+    press(state, "N");
+    CHECK(state.frame == 8);
+    state.frame = 7;
+    state.recorded.has_ended = true;
+    press(state, "N");
+    CHECK(state.frame == 7);
+  }
+
   TEST_CASE("a program that has ended rests at its last frame, and is not begun again") {
     WindowState state;
     state.frame = 6;

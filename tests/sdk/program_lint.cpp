@@ -175,4 +175,18 @@ TEST_SUITE("sdk") {
     CHECK(entry->bucket == 5);
     CHECK_FALSE(lint.entry(table + 4 * length));
   }
+
+  TEST_CASE("a table that is put into another one is drawn with it") {
+    constexpr std::uint32_t nested = 0x24000;
+    Linted lint;
+    for (int frame = 0; frame < 3; ++frame) {
+      lint.clear_table(nested, 4, here);
+      lint.put(nested + 4);
+      lint.link(table + 8, nested + 12, nested, 4, here);
+      lint.draw(table + 4 * (length - 1), here);
+      lint.sync();
+      lint.clear_table(table, length, here);
+    }
+    CHECK(kinds(lint).empty());
+  }
 }

@@ -189,13 +189,16 @@ TEST_SUITE("sdk") {
     for (const auto& item : report["lint"]) CHECK(item["kind"] != "buckets");
     const auto listed = shell("'" OTTER_PROGRAM "' replay r.psxgpu --list --json -");
     bool has_bucket = false;
-    for (const auto& one : nlohmann::json::parse(listed.out)["commands"])
-      has_bucket = has_bucket || std::count(one["number"].get<std::string>().begin(),
-                                            one["number"].get<std::string>().end(), ':') == 2;
+    const auto list = nlohmann::json::parse(listed.out);
+    for (const auto& one : list["commands"]) {
+      const std::string number = one["number"];
+      has_bucket = has_bucket || std::count(number.begin(), number.end(), ':') == 2;
+    }
     CHECK(has_bucket);
   }
 
-  TEST_CASE_FIXTURE(Programs, "polygons without depth are drawn in list order, refused, or take their bucket's") {
+  TEST_CASE_FIXTURE(Programs,
+                    "polygons without depth are drawn in list order, refused, or take their bucket's") {
     const auto plain = run("sdk_hello", "--frames 3 --visibility zbuffer -o x.png");
     CHECK(plain.status == 0);
     const std::string far_ones = "--frames 12 --visibility zbuffer -o x.png --without-depth ";
@@ -204,7 +207,8 @@ TEST_SUITE("sdk") {
   }
 
   TEST_CASE_FIXTURE(Programs, "play runs a program with all that follows, and nothing else") {
-    const auto outcome = shell("'" OTTER_PROGRAM "' play '" SDK_PROGRAMS "/sdk_cube' --frames 4 -o frame.png");
+    const auto outcome =
+        shell("'" OTTER_PROGRAM "' play '" SDK_PROGRAMS "/sdk_cube' --frames 4 -o frame.png");
     CHECK(outcome.status == 0);
     CHECK(has("frame.png"));
     const auto refused = shell("'" OTTER_PROGRAM "' play /bin/sh -c true");

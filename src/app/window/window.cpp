@@ -268,6 +268,7 @@ void Window::update() {
     if (message_is_error_) message_.clear();
   }
   follow_recording();
+  if (show_.machine() != nullptr && show_.machine()->is_behind()) return;  // it has another frame
   look_closely();
   state_.clicked.reset();  // a click that nobody wanted
   inspect();
@@ -299,9 +300,8 @@ void Window::follow_recording() {
   state_.recorded.is_live = subject->is_live();
   state_.recorded.has_ended = subject->has_ended();
   state_.recorded.wants_pad = subject->wants_pad();
-  if (!last) return;
-  const bool goes_on = subject->is_live() && !subject->has_ended();
-  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, *last + (goes_on ? 1 : 0));
+  if (!last || subject->is_behind()) return;  // how far it comes is not known yet
+  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, state_.recorded.furthest());
   constexpr double indexing_ms_per_frame = 8;
   if (is_indexing_) is_indexing_ = subject->index_some(indexing_ms_per_frame);
   if (show_.different().value_or(0) != 0) {

@@ -311,7 +311,7 @@ void pause_at(WindowState& state, std::int64_t frame) {
   state.late = 0;
   const bool is_recorded = state.recorded.last > 0;
   state.frame = std::max<std::int64_t>(frame, is_recorded ? 1 : 0);
-  if (is_recorded) state.frame = std::min(state.frame, state.recorded.last);
+  if (is_recorded) state.frame = std::min(state.frame, state.recorded.furthest());
 }
 
 void let_pass(WindowState& state, double seconds) {

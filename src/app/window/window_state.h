@@ -143,6 +143,11 @@ struct Recorded {
   bool is_live = false;                  ///< frames are made behind the last
   bool has_ended = false;                ///< no more of them
   bool wants_pad = false;                ///< the keys of app::pad_keys are the program's
+  /// The last frame that can be asked for.
+  [[nodiscard]] std::int64_t furthest() const {
+    constexpr std::int64_t anywhere = 1'000'000'000;
+    return is_live && !has_ended ? anywhere : last;
+  }
   [[nodiscard]] std::int64_t first_played() const { return from.value_or(1); }
   [[nodiscard]] std::int64_t last_played() const { return to.value_or(last); }
 };

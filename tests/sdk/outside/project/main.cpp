@@ -2,6 +2,7 @@
 #include <psxapi.h>
 #include <psxetc.h>
 #include <psxgpu.h>
+#include <sys/types.h>
 
 extern "C" {
 extern const unsigned char colour[];
@@ -22,10 +23,10 @@ int main() {
   draw.isbg = 1;
   SetDispMask(1);
   for (;;) {
+    DrawSync(0);
     ClearOTagR(table, 8);
     make_tile(tile, colour);
     addPrim(&table[3], tile);
-    DrawSync(0);
     VSync(0);
     PutDispEnv(&disp);
     PutDrawEnv(&draw);
