@@ -35,7 +35,6 @@
 namespace sdk {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 /// So long a program may go without waiting for a blank before the clock makes them.
@@ -163,7 +162,7 @@ class Host {
   void loop() {
     auto& console = the_console();
     app::Progress progress(name_, settings_.frames.value_or(0));
-    auto waited = Clock::now();
+    int waits = 0;  // since the last blank that the program waited for; none pass while a debugger stops it
     for (;;) {
       const auto state = console.handover.wait_for_program(blank_time);
       if (state == ProgramState::ended || state == ProgramState::crashed) {
@@ -174,14 +173,14 @@ class Host {
       }
       if (state == ProgramState::waiting) {
         ever_waited_ = true;
-      } else if (Clock::now() - waited < patience) {
+      } else if (++waits * blank_time < patience) {
         continue;
       }
       {
         const std::lock_guard lock(console.handover.console);
         blank();
       }
-      if (state == ProgramState::waiting) waited = Clock::now();  // now: a window may have kept it waiting
+      if (state == ProgramState::waiting) waits = 0;
       if (settings_.frames) progress.step();
       if (is_over()) break;
       if (state == ProgramState::waiting) {
