@@ -24,31 +24,37 @@ Timeline::Timeline(Recording recording, const DrawOptions& options, std::uint64_
 Timeline::~Timeline() = default;
 
 void Timeline::end_frames_by(dump::FrameBy by) {
-  assert(is_read());
-  if (by == dump::FrameBy::vsync && frames_ == nullptr) return;  // as they do
-  frames_ = by == dump::FrameBy::vsync ? nullptr : std::make_shared<const dump::Frames>(dump(), by);
-  index_ = {};
-  commands_of_ = 0;
+  if (by == frames_.by()) return;
+  frames_ = dump::Frames(by);
+  number_anew();
   find_frames();
-  set_options(options_);
 }
 
 void Timeline::set_options(const DrawOptions& options) {
   options_ = options;
-  options_.frames = frames_;
   keyframes_.clear();
   spacing_ms_ = first_spacing_ms;
   since_state_ms_ = 0;
-  indexer_ = std::make_unique<Player>(recording_, options_);
-  player_ = std::make_unique<Player>(recording_, options_);
+  indexer_ = std::make_unique<Player>(recording_, frames_, options_);
+  player_ = std::make_unique<Player>(recording_, frames_, options_);
   player_can_go_on_ = true;
   keep_state();
 }
 
 void Timeline::find_frames() {
-  const bool is_all = recording_.is_read();
-  const bool drops_rest = !recording_.fault().empty();
-  index_.extend(recording_.dump(), is_all, drops_rest, frames_.get());
+  using Rest = dump::Frames::Rest;
+  const Rest rest = !recording_.is_read()        ? Rest::to_come
+                    : recording_.fault().empty() ? Rest::nothing
+                                                 : Rest::lost;
+  if (!frames_.extend(recording_.dump(), rest)) number_anew();
+  index_.extend(recording_.dump(), frames_, rest);
+}
+
+/// Frames end elsewhere: states along the way do not fit.
+void Timeline::number_anew() {
+  index_ = {};
+  commands_of_ = 0;
+  set_options(options_);
 }
 
 bool Timeline::index_some(double milliseconds) {
@@ -144,6 +150,18 @@ std::optional<Number> Timeline::find_drawing(std::uint64_t drawing) {
     if (at->drawing_before >= drawing) break;
   }
   return std::nullopt;
+}
+
+Number Timeline::at_vsync(std::uint64_t vsync) {
+  const auto& packets = dump().packets;
+  std::size_t end = 0;
+  while (vsync > 0)
+    if (packets[end++].type == dump::PacketType::vsync) --vsync;
+  const auto frame = frame_at({end - 1, 0});
+  if (this->frame(frame).end_packet == end) return {frame, whole_frame};
+  const auto& all = commands(frame);
+  const auto after = std::ranges::upper_bound(all, Place{end, 0}, {}, &Command::end);
+  return {frame, static_cast<std::uint64_t>(after - all.begin())};
 }
 
 std::uint64_t Timeline::frame_at(Place place) const {

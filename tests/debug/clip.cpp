@@ -16,9 +16,9 @@
 
 namespace {
 
-using debug::Clip, debug::Edits, debug::FrameView, debug::Recording, debug::Timeline, debug::whole_frame;
+using debug::Clip, debug::Edits, debug::FrameView, debug::Recording, debug::whole_frame;
 using dump::PacketType;
-using tests::pixels_of, tests::random_dump, tests::Words, tests::xy;
+using tests::Timeline, tests::pixels_of, tests::random_dump, tests::Words, tests::xy;
 
 std::vector<std::uint16_t> played(const Clip& clip) {
   gpu::Gpu gpu;

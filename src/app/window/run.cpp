@@ -22,7 +22,7 @@ namespace {
 
 struct RunOptions {
   std::string scene, pace, camera, settings, shown;
-  RamOptions ram;
+  SourceOptions source_options;
   std::vector<std::string> panels, named_knobs;
   WindowOptions window;
 };
@@ -69,9 +69,9 @@ base::Result<void> prepare(RunOptions& options) {
 }
 
 // A file that is shown as often as it is chosen: it is read once, and recordings share their timeline.
-base::Result<WindowScene> open_entry(const std::string& name, const RamOptions& ram, scene::Knobs knobs,
+base::Result<WindowScene> open_entry(const std::string& name, const SourceOptions& source_options, scene::Knobs knobs,
                                      const std::string& shown) {
-  auto source = open_source(name, ram);
+  auto source = open_source(name, source_options);
   if (!source) return tl::make_unexpected(source.error());
   if (source->scene) {
     const auto scene = std::make_shared<scene::Scene>(std::move(*source->scene));
@@ -104,7 +104,7 @@ base::Result<int> run(RunOptions& options) {
     return tl::make_unexpected(checked.error());
   if (!options.scene.empty() && demos::find(options.scene) == nullptr) {
     // Now, so that a bad file opens no window.
-    auto entry = open_entry(options.scene, options.ram, window.first.knobs, options.shown);
+    auto entry = open_entry(options.scene, options.source_options, window.first.knobs, options.shown);
     if (!entry) return tl::make_unexpected(entry.error());
     // A remembered mode that recordings have not got must not keep one from being opened.
     const auto& named = options.named_knobs;
@@ -114,7 +114,7 @@ base::Result<int> run(RunOptions& options) {
       visibility = scene::Visibility::ot;
     }
     window.scenes.push_back(std::move(*entry));
-  } else if (!options.ram.head.empty()) {
+  } else if (!options.source_options.head.empty()) {
     return base::fail("--head: expected a RAM image before it");
   }
   window.open = [shown = options.shown, knobs = window.first.knobs](const std::string& path) {
@@ -140,7 +140,7 @@ Action add_run(Arguments arguments) {
   arguments.positional(
       "scene", "SCENE|FILE", options->scene,
       "a scene of `otter list` [the first], a scene file, a GPU dump, or with --head a RAM image");
-  add_ram_options(arguments, options->ram);
+  add_source_options(arguments, options->source_options);
   arguments.choice("--pace", options->pace, {"vsync", "60", "50", "slow"},
                    "frames with the screen, or at a fixed rate [as last time, at first vsync]");
   arguments.number("--scale", "1..16", window.scale, 1, 16, "screen pixels for each pixel at first [3]");
