@@ -25,21 +25,25 @@ class Frames::Follower {
       if (packet.type == PacketType::port1)
         for (const auto word : dump.payload(packet)) port1(word);
       if (packet.type == PacketType::trace_begin) mark();
-      if (packet.type == PacketType::vsync) {
-        is_set_up_ = true;
-        last_vsync_end = next + 1;
-      }
+      if (packet.type == PacketType::vsync) vsync();
     }
   }
 
   std::vector<Shown> shown;
   std::size_t next = 0;  // packet
+  std::vector<std::size_t>
+      erased;  // ends at a VSync behind which a fill begins anew, while nothing was shown
   std::size_t last_vsync_end = 0;
   bool has_two_buffers = false;  // from now on a mark comes too late
   bool was_marked = false;       // what was taken for frames before was set-up
   [[nodiscard]] bool has_drawn() const { return has_drawn_; }
   /// Of the last one shown the start may still change.
   [[nodiscard]] bool is_ended() const { return is_ended_; }
+  /// Of so many packets it is known whether they end a frame.
+  [[nodiscard]] std::size_t known() const {
+    if (is_ended_) return shown.back().end - 1;
+    return vsync_end_ != 0 ? vsync_end_ - 1 : next;
+  }
 
  private:
   /// The recorder says where set-up ends.
@@ -47,7 +51,14 @@ class Frames::Follower {
     if (has_mark_ || has_two_buffers) return;
     has_mark_ = is_set_up_ = was_marked = true;
     has_drawn_ = is_ended_ = false;
+    vsync_end_ = 0;
     shown.clear();
+    erased.clear();
+  }
+  void vsync() {
+    is_set_up_ = true;
+    last_vsync_end = next + 1;
+    if (has_drawn_ && shown.empty()) vsync_end_ = next + 1;
   }
   void port0(std::span<const std::uint32_t> words) {
     // What follows a frame's end without a command is still the frame's.
@@ -65,7 +76,10 @@ class Frames::Follower {
     const bool is_primitive = command == Command::polygon || command == Command::rectangle ||
                               command == Command::line || command == Command::polyline;
     is_set_up_ = is_set_up_ || is_primitive;
-    has_drawn_ = has_drawn_ || (is_set_up_ && ot::gp0::is_drawing(command));
+    if (!ot::gp0::is_drawing(command)) return;
+    has_drawn_ = has_drawn_ || is_set_up_;
+    const auto end = std::exchange(vsync_end_, 0);
+    if (end != 0 && command == Command::fill) erased.push_back(end);
   }
   void port1(std::uint32_t word) {
     if (ot::gp1::aborts_command(word)) stream_.abort();
@@ -75,6 +89,7 @@ class Frames::Follower {
       shown.back().start = start;
     } else if (has_drawn_) {
       shown.push_back({next + 1, start});
+      vsync_end_ = 0;
       has_drawn_ = false;
       is_ended_ = true;
     }
@@ -82,9 +97,10 @@ class Frames::Follower {
 
   ot::CommandStream stream_;
   bool has_mark_ = false;
-  bool is_set_up_ = false;  // frames have begun
-  bool has_drawn_ = false;  // since the last word that showed something
-  bool is_ended_ = false;   // shown.back() had nothing sent to port 0 after it
+  bool is_set_up_ = false;     // frames have begun
+  bool has_drawn_ = false;     // since the last word that showed something
+  bool is_ended_ = false;      // shown.back() had nothing sent to port 0 after it
+  std::size_t vsync_end_ = 0;  // one past a VSync behind which nothing was drawn yet; 0: none that matters
 };
 
 Frames::Frames(FrameBy by) : by_(by), follower_(std::make_unique<Follower>()) {}
@@ -120,9 +136,15 @@ bool Frames::extend_by_display(const Dump& dump, Rest rest) {
     holds = told == 0;
   }
   const auto& shown = follower.shown;
+  if (shown.empty()) {
+    for (std::size_t n = ends_.size(); n < follower.erased.size(); ++n) end_at(follower.erased[n]);
+  } else if (counted_ == 0 && !ends_.empty()) {
+    keep_ends(0);
+    holds = told == 0;
+  }
   const bool is_open = rest == Rest::to_come && follower.is_ended();
   const std::size_t whole = shown.size() - (is_open ? 1 : 0);
-  known_ = is_open ? shown.back().end - 1 : follower.next;
+  known_ = rest == Rest::to_come ? follower.known() : follower.next;
   for (; counted_ < whole; ++counted_) {
     const bool is_other = counted_ == 0 || shown[counted_].start != shown[counted_ - 1].start;
     if (is_single_buffered_ && is_other && counted_ != 0) {
@@ -132,7 +154,8 @@ bool Frames::extend_by_display(const Dump& dump, Rest rest) {
     }
     if (is_single_buffered_ || is_other) end_at(shown[counted_].end);
   }
-  if (rest == Rest::lost && ends_.empty() && follower.last_vsync_end != 0) {
+  const bool has_lost = shown.empty() && follower.last_vsync_end > (ends_.empty() ? 0 : ends_.back());
+  if (rest == Rest::lost && has_lost) {
     end_at(follower.last_vsync_end);
     holds = false;
   }

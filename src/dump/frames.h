@@ -15,8 +15,9 @@ namespace dump {
 enum class FrameBy : std::uint8_t {
   /// GP1(05h) shows another buffer: a frame that takes several refreshes is one frame. The first such word
   /// after something was drawn counts whatever it shows, since what the display stood at before is what the
-  /// recorder restored. In a dump that never shows a second buffer every GP1(05h) after drawing counts; in
-  /// one without any, all is one frame.
+  /// recorder restored. In a dump that never shows a second buffer every GP1(05h) after drawing counts.
+  /// In one without any, a VSync counts if the first thing drawn after it is a fill, as by programs with one
+  /// buffer; otherwise all is one frame.
   display,
   /// Every VSync packet. Without one, all is one frame; what comes after the last belongs to none.
   vsync,

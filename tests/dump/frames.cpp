@@ -14,13 +14,17 @@ using Words = std::vector<std::uint32_t>;
 const Words triangle{0x200000ff, 0x00000000, 0x00000010, 0x00100000};
 const Words upload{0xa0000000, 0x00000000, 0x00010002, 0x00000000};
 
-/// A dump told in letters: d draws, u uploads, v VSync, m the trace_begin mark, 0..9 GP1(05h) of that row.
+/// A dump told in letters: d draws, f fills, u uploads, v VSync, m the trace_begin mark, 0..9 GP1(05h) of
+/// that row.
 dump::Dump dump_of(const char* letters) {
   dump::Dump dump;
   for (; *letters != '\0'; ++letters) {
     switch (*letters) {
       case 'd':
         dump.add(PacketType::port0, triangle);
+        break;
+      case 'f':
+        dump.add(PacketType::port0, Words{0x02000000, 0, 0x00100010});
         break;
       case 'u':
         dump.add(PacketType::port0, upload);
@@ -74,6 +78,12 @@ TEST_SUITE("dump") {
     CHECK(ends("0md0vd0vd0v") == Ends{5, 8, 11});
   }
 
+  TEST_CASE("where nothing is shown a VSync ends a frame if a fill begins the next one") {
+    CHECK(ends("mfdvfdvvfdvd") == Ends{4, 8, 12});
+    CHECK(ends("mfdvdvfdv") == Ends{6, 9});
+    CHECK(ends("fdvfdvfd0vd1v") == Ends{10, 13});  // but not where a word shows a buffer
+  }
+
   TEST_CASE("telling the display again what it shows ends nothing where there are two buffers") {
     CHECK(ends("md1vdv1dv0dv0dv1v") == Ends{4, 10, 17});
   }
@@ -104,9 +114,9 @@ TEST_SUITE("dump") {
   }
 
   TEST_CASE("packets that come one by one end the frames that they end together") {
-    for (const char* letters :
-         {"0mdv2dvdv0dv2v", "0md0vvd1vd0v", "md1vdv1dv0dv0dv1v", "u0u1md0vd1v", "md0vd0vd0vd1vd0v",
-          "md0vd1vd", "0vu1vu0v", "d0vd0vmd0vd0v", "d0vd0vd0vd0", "dvdvdv", ""}) {
+    for (const char* letters : {"0mdv2dvdv0dv2v", "0md0vvd1vd0v", "md1vdv1dv0dv0dv1v", "u0u1md0vd1v",
+                                "md0vd0vd0vd1vd0v", "md0vd1vd", "0vu1vu0v", "d0vd0vmd0vd0v", "d0vd0vd0vd0",
+                                "dvdvdv", "mfdvfdvvfdvd", "fdvfdvfd0vd1v", ""}) {
       CAPTURE(letters);
       const auto whole = dump_of(letters);
       dump::Frames frames(FrameBy::display);
@@ -162,6 +172,7 @@ TEST_SUITE("dump") {
     CHECK(lost("md0vd1vd") == Ends{4, 7});
     CHECK(lost("md0vd1") == Ends{4, 6});
     CHECK(lost("dvdvd") == Ends{4});
+    CHECK(lost("fdvfdvf") == Ends{3, 6});
     CHECK(lost("d").empty());
   }
 }

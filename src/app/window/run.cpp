@@ -69,8 +69,8 @@ base::Result<void> prepare(RunOptions& options) {
 }
 
 // A file that is shown as often as it is chosen: it is read once, and recordings share their timeline.
-base::Result<WindowScene> open_entry(const std::string& name, const SourceOptions& source_options, scene::Knobs knobs,
-                                     const std::string& shown) {
+base::Result<WindowScene> open_entry(const std::string& name, const SourceOptions& source_options,
+                                     scene::Knobs knobs, const std::string& shown) {
   auto source = open_source(name, source_options);
   if (!source) return tl::make_unexpected(source.error());
   if (source->scene) {
