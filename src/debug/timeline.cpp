@@ -10,7 +10,7 @@ namespace debug {
 namespace {
 
 constexpr double first_spacing_ms = 4;
-constexpr std::size_t read_bytes = std::size_t{1} << 18;
+constexpr std::size_t read_bytes = std::size_t{1} << 14;  // packed they may hold thousands of times as many
 constexpr std::uint64_t least_for_states = std::uint64_t{64} << 20;
 
 }  // namespace
@@ -79,7 +79,7 @@ base::Result<void> Timeline::read_first_frame() {
 
 base::Result<void> Timeline::read_all(const std::function<bool(double)>& keep_going) {
   while (!recording_.is_read()) {
-    recording_.read_some(4 * read_bytes);
+    recording_.read_some(64 * read_bytes);
     find_frames();
     if (keep_going && !keep_going(recording_.read_progress())) break;
   }
@@ -123,14 +123,14 @@ void Timeline::keep_states(Place until, double deadline_ms) {
 }
 
 void Timeline::keep_state() {
-  const double begun = base::now_ms();
+  const double begun = base::cpu_ms();
   keyframes_.add(indexer_->place(), indexer_->is_in_frame(), indexer_->gpu().save());
   since_state_ms_ = 0;
   while (keyframes_.bytes() > allowance() && keyframes_.size() >= 4) {
     keyframes_.thin();
     spacing_ms_ *= 2;
   }
-  keeping_ms_ = base::now_ms() - begun;
+  keeping_ms_ = base::cpu_ms() - begun;
 }
 
 const std::vector<Command>& Timeline::commands(std::uint64_t frame) {

@@ -135,7 +135,7 @@ class Timeline {
   FrameIndex index_;
   Keyframes keyframes_;
   double spacing_ms_;                // between two states, of drawing
-  double keeping_ms_ = 0;            // that the last one took to be kept
+  double keeping_ms_ = 0;            // of processor time, that keeping the last one took
   double since_state_ms_ = 0;        // drawn since the last one
   std::unique_ptr<Player> indexer_;  // as far as states are kept
   std::unique_ptr<Player> player_;   // where the last seek went
