@@ -136,6 +136,14 @@ TEST_SUITE("debug") {
     CHECK(back == played(clip));
   }
 
+  TEST_CASE("commands keep their numbers, wherever they are moved to") {
+    FrameView view(three_squares(), {});
+    view.set_edits({.moves = {{4, 2, false}}});
+    std::vector<std::uint64_t> numbers;
+    for (const auto& draw : view.trace().draws) numbers.push_back(debug::number_of(1, draw).command);
+    CHECK(numbers == std::vector<std::uint64_t>{5, 3, 4});  // blue before red and green
+  }
+
   TEST_CASE("a command linked into another bucket is drawn first of that bucket") {
     auto clip = three_squares();
     clip.buckets = 10;

@@ -9,6 +9,7 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/commands.h"
+#include "app/commands/recorded.h"
 #include "app/commands/without_depth.h"
 #include "app/source.h"
 #include "app/tape.h"
@@ -70,7 +71,8 @@ base::Result<void> prepare(RunOptions& options) {
 
 // A file that is shown as often as it is chosen: it is read once, and recordings share their timeline.
 base::Result<WindowScene> open_entry(const std::string& name, const SourceOptions& source_options,
-                                     scene::Knobs knobs, const std::string& shown) {
+                                     const scene::Knobs& knobs, const std::string& shown,
+                                     std::int64_t frame) {
   auto source = open_source(name, source_options);
   if (!source) return tl::make_unexpected(source.error());
   if (source->scene) {
@@ -81,9 +83,11 @@ base::Result<WindowScene> open_entry(const std::string& name, const SourceOption
                        },
                        false};
   }
-  if (knobs.visibility != scene::Visibility::zbuffer) knobs.visibility = scene::Visibility::ot;
-  knobs.without_depth = foreign_without_depth;
-  auto timeline = open_timeline(*source, knobs);
+  scene::Knobs console;
+  if (knobs.visibility == scene::Visibility::zbuffer) console.visibility = knobs.visibility;
+  console.without_depth = foreign_without_depth;
+  auto timeline = frame <= 1 ? open_timeline(*source, console)
+                             : open_at_frame(*source, console, static_cast<std::uint64_t>(frame));
   if (!timeline) return tl::make_unexpected(timeline.error());
   (*timeline)->set_options({});  // the console; a z-buffer draws frame by frame
   const std::shared_ptr<debug::Timeline> shared = std::move(*timeline);
@@ -104,7 +108,8 @@ base::Result<int> run(RunOptions& options) {
     return tl::make_unexpected(checked.error());
   if (!options.scene.empty() && demos::find(options.scene) == nullptr) {
     // Now, so that a bad file opens no window.
-    auto entry = open_entry(options.scene, options.source_options, window.first.knobs, options.shown);
+    auto entry = open_entry(options.scene, options.source_options, window.first.knobs, options.shown,
+                            window.first.frame);
     if (!entry) return tl::make_unexpected(entry.error());
     // A remembered mode that recordings have not got must not keep one from being opened.
     const auto& named = options.named_knobs;
@@ -118,7 +123,7 @@ base::Result<int> run(RunOptions& options) {
     return base::fail("--head: expected a RAM image before it");
   }
   window.open = [shown = options.shown, knobs = window.first.knobs](const std::string& path) {
-    return open_entry(path, {}, knobs, shown);
+    return open_entry(path, {}, knobs, shown, 1);
   };
   for (const auto& demo : demos::all()) {
     if (demo.name == options.scene) window.first.scene = static_cast<int>(window.scenes.size());
