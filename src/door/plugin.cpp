@@ -1,9 +1,7 @@
 // libotterGPU.so: the GPU of an emulator with the PSEmu-Pro plugin interface. Nothing is thrown across, and
-// no call needs another one before it. There is no window: what is shown goes to files (door/session.h).
+// no call needs another one before it. The window is a process of its own (door/window_process.h).
 //
 // Not modelled: time. Status bit 31 changes with every reading, for programs that poll it for lines.
-
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "door/session.h"
+#include "door/x11_keys.h"
 
 namespace {
 
@@ -86,16 +85,6 @@ long load(const Freeze& freeze) {
   return 1;
 }
 
-/// The emulator reads the keyboard from the display that GPUopen hands over. Without X11 there is none.
-unsigned long open_display() {
-  static void* const library = dlopen("libX11.so.6", RTLD_NOW);
-  if (library == nullptr) return 0;
-  using Open = void* (*)(const char*);
-  const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
-  static void* const display = open != nullptr ? open(nullptr) : nullptr;
-  return reinterpret_cast<unsigned long>(display);
-}
-
 }  // namespace
 
 extern "C" {
@@ -117,14 +106,19 @@ long GPUshutdown() {
     return 0L;
   });
 }
-long GPUopen(unsigned long* display, char*, char*) {
+long GPUopen(unsigned long* display, char* caption, char*) {
   return guarded([&] {
-    session();
-    if (display != nullptr) *display = open_display();
+    if (display != nullptr) *display = door::open_key_display();
+    session().open_window(caption != nullptr ? caption : "");
     return 0L;
   });
 }
-long GPUclose() { return 0; }
+long GPUclose() {
+  return guarded([] {
+    if (session_place()) session_place()->close_window();
+    return 0L;
+  });
+}
 
 std::uint32_t GPUreadStatus() {
   return guarded([] {
@@ -188,9 +182,9 @@ void GPUmakeSnapshot() {
   guarded([] { session().snapshot(); });
 }
 void GPUkeypressed(int key) {
-  constexpr int f8 = 0xffc5;  // X11's keysym
   guarded([&] {
-    if (key == f8) session().toggle_recording();
+    // A window takes its keys itself.
+    if (key == static_cast<int>(door::keysym_f8) && !session().has_window()) session().toggle_recording();
   });
 }
 void GPUdisplayText(char* text) {
