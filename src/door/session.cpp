@@ -11,7 +11,6 @@
 #include "base/write_file.h"
 #include "display/png.h"
 #include "door/knobs.h"
-#include "door/x11_keys.h"
 
 namespace door {
 
@@ -164,6 +163,8 @@ void Session::serve_window() {
   do {
     while (const auto request = window_->poll(waits() ? wait_ms : 0)) obey(*request);
   } while (waits() && !window_->has_ended());
+  put_keys(keys_);
+  keys_.clear();
   if (!window_->has_ended()) return;
   close_window();
   if (is_closed_) return;
@@ -192,13 +193,12 @@ void Session::obey(const LiveRequest& request) {
       break;
     case LiveAsk::key_down:
     case LiveAsk::key_up:
-      put_key(request.value, request.what == LiveAsk::key_down);
+      keys_.push_back({request.value, request.what == LiveAsk::key_down});
       break;
     case LiveAsk::close_program:
       is_closed_ = true;
       is_paused_ = false;
-      put_key(keysym_escape, true);
-      put_key(keysym_escape, false);
+      keys_.insert(keys_.end(), {{keysym_escape, true}, {keysym_escape, false}});
       break;
   }
 }

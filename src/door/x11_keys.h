@@ -3,13 +3,18 @@
 // Xlib is looked for when it is needed: without it there is no display, and no keys.
 
 #include <cstdint>
+#include <span>
 
 namespace door {
 
 /// Opens the display once; what GPUopen hands back. 0: there is none.
 unsigned long open_key_display();
-/// The next events of that display: a key goes down or up. Nothing without a display.
-void put_key(std::uint32_t keysym, bool is_down);
+struct Key {
+  std::uint32_t keysym;  ///< X11's
+  bool is_down;
+};
+/// The next events of that display, in this order. Nothing without a display.
+void put_keys(std::span<const Key> keys);
 
 inline constexpr std::uint32_t keysym_escape = 0xff1b, keysym_f8 = 0xffc5;
 
