@@ -8,10 +8,12 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "door/session.h"
 #include "door/x11_keys.h"
+#include "dump/compression.h"
 
 namespace {
 
@@ -39,13 +41,20 @@ auto guarded(Body&& body) noexcept -> decltype(body()) {
   return decltype(body())();
 }
 
-/// What GPUfreeze hands over; other plugins keep the VRAM image in `vram` as it is.
+/// What GPUfreeze hands over: a version, the status, registers by their command number, VRAM. A state of ours
+/// has what other plugins look for, and behind the registers all the rest.
 struct Freeze {
   std::uint32_t version, status, control[256];
-  std::uint8_t vram[1024 * 1024 * 2];
+  std::uint8_t vram[1024 * 512 * 2];
 };
+static_assert(sizeof(Freeze) == 8 + 1024 + 1024 * 1024);
 constexpr long freeze_load = 0, freeze_save = 1;
-constexpr char state_magic[] = "OTTER-GPU-STATE";
+
+/// In `control`: a mark, how many bytes of the rest follow, and the rest: a saved state up to its VRAM, which
+/// ends it, packed.
+constexpr std::uint32_t rest_mark = 0x5254544f;
+constexpr std::size_t mark_at = 16, length_at = 17, rest_at = 18;
+constexpr std::size_t most_rest = (256 - rest_at) * 4;
 
 /// A GPU with a z-buffer saves more than there is room for: its frame is brought to an end elsewhere.
 std::vector<std::byte> state_without_depth(door::Device& device) {
@@ -59,23 +68,46 @@ std::vector<std::byte> state_without_depth(door::Device& device) {
 long save(Freeze& freeze) {
   door::Device& device = session().device();
   const auto state = state_without_depth(device);
-  if (state.size() > sizeof freeze.vram) return 0;
+  const auto rest =
+      dump::pack(std::span(state).first(state.size() - sizeof freeze.vram), dump::Compression::zstd);
+  if (rest.size() > most_rest) {
+    std::fprintf(stderr, "otter: the state has no room: nothing is saved\n");
+    return 0;
+  }
+  const gpu::Display& display = device.gpu().display();
+  std::memset(freeze.control, 0, sizeof freeze.control);
   freeze.version = 1;
   freeze.status = device.status();
-  std::memcpy(freeze.vram, state.data(), state.size());
+  freeze.control[3] = display.is_off ? 1 : 0;
+  freeze.control[5] = display.start;
+  freeze.control[6] = display.horizontal_range;
+  freeze.control[7] = display.vertical_range;
+  freeze.control[8] = display.mode;
+  freeze.control[mark_at] = rest_mark;
+  freeze.control[length_at] = static_cast<std::uint32_t>(rest.size());
+  std::memcpy(&freeze.control[rest_at], rest.data(), rest.size());
+  std::memcpy(freeze.vram, state.data() + state.size() - sizeof freeze.vram, sizeof freeze.vram);
   return 1;
+}
+
+long refuse(const std::string& why) {
+  std::fprintf(stderr, "otter: the saved state: %s\n", why.c_str());
+  return 0;
 }
 
 /// A state of ours, or another plugin's: VRAM and the display registers.
 long load(const Freeze& freeze) {
   door::Device& device = session().device();
-  const auto* bytes = reinterpret_cast<const std::byte*>(freeze.vram);
-  if (std::memcmp(freeze.vram, state_magic, sizeof state_magic) == 0) {
-    std::uint32_t size = 0;  // the sixth word of a state
-    for (std::size_t n = 4; n-- > 0;) size = size << 8 | freeze.vram[20 + n];
-    const auto error = device.load(std::span(bytes, std::min<std::size_t>(size, sizeof freeze.vram)));
-    if (error) std::fprintf(stderr, "otter: the saved state: %s\n", error->message.c_str());
-    return error ? 0 : 1;
+  const std::span vram(reinterpret_cast<const std::byte*>(freeze.vram), sizeof freeze.vram);
+  if (freeze.control[mark_at] == rest_mark) {
+    const std::size_t length = freeze.control[length_at];
+    if (length > most_rest) return refuse("its length is damaged");
+    const auto* packed = reinterpret_cast<const std::byte*>(&freeze.control[rest_at]);
+    auto state = dump::unpack({packed, length}, std::uint64_t{1} << 16);
+    if (!state) return refuse("it is damaged");
+    state->insert(state->end(), vram.begin(), vram.end());
+    const auto error = device.load(*state);
+    return error ? refuse(error->message) : 1;
   }
   device.gp1(0);
   for (const std::uint32_t n : {3U, 4U, 5U, 6U, 7U, 8U}) device.gp1(n << 24 | (freeze.control[n] & 0xffffff));
