@@ -98,6 +98,12 @@ void Session::field() {
     std::_Exit(0);
   }
   if (window_) serve_window();
+  // One event a field: emulators look at the last one only, and a key that goes down and up between two looks
+  // would not have been typed.
+  if (!keys_.empty()) {
+    put_key(keys_.front());
+    keys_.pop_front();
+  }
   pace();
 }
 
@@ -163,8 +169,6 @@ void Session::serve_window() {
   do {
     while (const auto request = window_->poll(waits() ? wait_ms : 0)) obey(*request);
   } while (waits() && !window_->has_ended());
-  put_keys(keys_);
-  keys_.clear();
   if (!window_->has_ended()) return;
   close_window();
   if (is_closed_) return;

@@ -14,12 +14,12 @@
 
 #include <chrono>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <optional>
 #include <set>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "door/device.h"
 #include "door/window_process.h"
@@ -63,7 +63,7 @@ class Session {
   int recordings_ = 0, snapshots_ = 0;
   std::unique_ptr<WindowProcess> window_;
   std::string program_;
-  std::vector<Key> keys_;  // the emulator is to see them
+  std::deque<Key> keys_;  // the emulator is to see them
   int crashes_ = 0;
   bool is_paused_ = false, is_fast_ = false, is_closed_ = false;
   std::optional<std::uint64_t> step_until_;  // so many frames handed over

@@ -26,20 +26,17 @@ Display* key_display() {
 
 unsigned long open_key_display() { return reinterpret_cast<unsigned long>(key_display()); }
 
-// Xlib puts an event before all others: the last one first.
-void put_keys(std::span<const Key> keys) {
+void put_key(Key key) {
   Display* const display = key_display();
   auto* const keycode = xlib<decltype(XKeysymToKeycode)>("XKeysymToKeycode");
   auto* const put_back = xlib<decltype(XPutBackEvent)>("XPutBackEvent");
   if (display == nullptr || keycode == nullptr || put_back == nullptr) return;
-  for (std::size_t n = keys.size(); n-- > 0;) {
-    XEvent event{};
-    event.xkey.type = keys[n].is_down ? KeyPress : KeyRelease;
-    event.xkey.display = display;
-    event.xkey.keycode = keycode(display, keys[n].keysym);
-    event.xkey.same_screen = True;
-    if (event.xkey.keycode != 0) put_back(display, &event);
-  }
+  XEvent event{};
+  event.xkey.type = key.is_down ? KeyPress : KeyRelease;
+  event.xkey.display = display;
+  event.xkey.keycode = keycode(display, key.keysym);
+  event.xkey.same_screen = True;
+  if (event.xkey.keycode != 0) put_back(display, &event);
 }
 
 }  // namespace door

@@ -3,7 +3,6 @@
 // Xlib is looked for when it is needed: without it there is no display, and no keys.
 
 #include <cstdint>
-#include <span>
 
 namespace door {
 
@@ -13,8 +12,8 @@ struct Key {
   std::uint32_t keysym;  ///< X11's
   bool is_down;
 };
-/// The next events of that display, in this order. Nothing without a display.
-void put_keys(std::span<const Key> keys);
+/// The next event of that display. Nothing without a display.
+void put_key(Key key);
 
 inline constexpr std::uint32_t keysym_escape = 0xff1b, keysym_f8 = 0xffc5;
 
