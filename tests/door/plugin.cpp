@@ -104,7 +104,7 @@ TEST_SUITE("plugin") {
     CHECK(memory->behind == 0x12345678);
     CHECK(memory->vram[0] == 0x11);  // where other plugins look for it
     CHECK(memory->vram[1] == 0x11);
-    for (const std::size_t damaged : {17, 18, 20}) {
+    for (const std::size_t damaged : {17U, 18U, 20U}) {
       CAPTURE(damaged);
       auto other = std::make_unique<Freeze>(*memory);
       other->control[damaged] ^= 0xffff;
