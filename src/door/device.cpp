@@ -89,8 +89,11 @@ ListResult Device::send_list(std::span<const std::uint32_t> ram, std::uint32_t h
   ListResult result;
   result.walk = ot::validate(ram, head, max_nodes);
   result.tables = ot::find_tables(ram, head, result.walk.nodes);
-  if (tap_)
-    tap_->begin_list(result.tables, tap_->is_collecting() ? lint(ram, head) : decltype(lint(ram, 0)){});
+  if (tap_) {
+    tap_->catch_up(gpu_);
+    auto faults = tap_->is_collecting() ? lint(ram, head) : std::vector<inspect::LintItem>{};
+    tap_->begin_list(result.tables, std::move(faults));
+  }
   ot::send_nodes(ram, head, result.walk.nodes,
                  [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
                    if (tap_) tap_->set_tag(tag);

@@ -45,6 +45,7 @@ class Device {
   ListResult send_list(std::span<const std::uint32_t> ram, std::uint32_t head, std::uint32_t max_nodes);
 
   void vertex(std::uint32_t xy, std::uint32_t z, std::uint8_t fx, std::uint8_t fy);
+  [[nodiscard]] bool has_vertices() const { return has_vertices_; }
   [[nodiscard]] const DepthShares& depth() const { return annotator_.shares(); }
 
   [[nodiscard]] gpu::Gpu& gpu() { return gpu_; }

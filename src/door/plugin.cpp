@@ -242,9 +242,20 @@ void GPUgetScreenPic(unsigned char* bgr) {
   });
 }
 
+// Who asks for these looks at the emulator's window; what there is to say goes where all else is said.
+long GPUconfigure() {
+  std::fputs(
+      "otter: knobs are set in the window (F2), the rest by variables of the environment (OTTER_...)\n",
+      stderr);
+  return 0;
+}
+void GPUabout() {
+  std::fputs(
+      "otter: a GPU to the bit, with its ordering tables, depths and pixels open to view (MIT licence)\n",
+      stderr);
+}
+
 // What the interface has and this plugin needs nothing for.
-long GPUconfigure() { return 0; }
-void GPUabout() {}
 long GPUtest() { return 0; }
 long GPUgetMode() { return 0; }
 void GPUsetMode(std::uint32_t) {}

@@ -243,18 +243,17 @@ void Session::finish() {
   is_finished_ = true;
   close_window();
   if (device_.is_recording()) tell(device_.end_recording());
-  const DepthShares& depth = device_.depth();
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "%llu fields, %llu lists, %llu tags, the longest table %u, %llu faulty; polygons %llu, with "
-                "depth %llu, "
-                "partly %llu, doubtful %llu; last list at %06Xh",
-                static_cast<unsigned long long>(fields_), static_cast<unsigned long long>(lists_),
-                static_cast<unsigned long long>(nodes_), static_cast<unsigned>(buckets_),
-                static_cast<unsigned long long>(faults_), static_cast<unsigned long long>(depth.polygons),
-                static_cast<unsigned long long>(depth.with_depth),
-                static_cast<unsigned long long>(depth.partly),
-                static_cast<unsigned long long>(depth.doubtful), static_cast<unsigned>(last_head_));
+  const auto number = [](std::uint64_t n) { return std::to_string(n); };
+  std::string line = number(fields_) + " fields, " + number(lists_) + " lists, " + number(nodes_) +
+                     " tags, the longest table " + number(buckets_) + ", " + number(faults_) + " faulty; ";
+  if (device_.has_vertices()) {
+    const DepthShares& depth = device_.depth();
+    line += "polygons " + number(depth.polygons) + ", with depth " + number(depth.with_depth) + ", partly " +
+            number(depth.partly) + ", doubtful " + number(depth.doubtful);
+  } else {
+    line += "no vertex was told, so no polygon has depth";
+  }
+  if (lists_ != 0) line += numbered("; last list at %06Xh", last_head_);
   say(line);
 }
 

@@ -126,6 +126,18 @@ TEST_SUITE("live") {
     CHECK(at.frames[0].runs[0].bucket == 5);
   }
 
+  TEST_CASE("What is wrong with a list that begins a frame is told with the frame") {
+    Watched at;
+    Words ram(0x200000 / 4);
+    ram[0x400] = 3U << 24 | 0x1000;  // links to itself
+    at.device.send_list(ram, 0x1000, 100);
+    at.square(0);
+    at.show(256);
+    REQUIRE(at.frames.size() == 1);
+    REQUIRE_FALSE(at.frames[0].lint.empty());
+    CHECK(at.frames[0].lint[0].kind == "loop");
+  }
+
   TEST_CASE("A polygon whose vertices are known brings its depth into the frame") {
     Watched at;
     for (const auto word : {xy(0, 0), xy(8, 0), xy(0, 8)}) at.device.vertex(word, 100 << 12, 0, 0);
