@@ -19,6 +19,8 @@
 
 namespace app {
 
+class Live;
+
 class Subject {
  public:
   Subject() = default;
@@ -50,6 +52,10 @@ class Subject {
   [[nodiscard]] virtual std::unique_ptr<Subject> apart(std::int64_t frame, const scene::Knobs& knobs) = 0;
 
   [[nodiscard]] virtual bool is_recording() const { return false; }
+  /// A program that runs now; nullptr: it is something else.
+  [[nodiscard]] virtual Live* live() { return nullptr; }
+  /// Number of the first frame that there still is.
+  [[nodiscard]] virtual std::optional<std::int64_t> first_frame() const { return 1; }
   /// Number of its last frame so far, from 1; nothing: it goes on for ever, from 0.
   [[nodiscard]] virtual std::optional<std::int64_t> last_frame() const { return std::nullopt; }
   /// Finds out more of what is to come, for about so long. False: everything is known.

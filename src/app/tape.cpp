@@ -10,6 +10,14 @@
 #include "scene/plan.h"
 
 namespace app {
+
+base::Result<void> check_visibility(const scene::Knobs& knobs) {
+  const auto visibility = knobs.visibility;
+  if (visibility == scene::Visibility::ot || visibility == scene::Visibility::zbuffer) return {};
+  return base::fail("visibility " + knob_value(knobs, "visibility") +
+                    ": a recording has its own order; expected ot or zbuffer");
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -22,13 +30,6 @@ bool overlap(const display::Area& a, int x, int y, int width, int height) {
   return a.x < x + width && x < a.x + a.width && a.y < y + height && y < a.y + a.height;
 }
 
-base::Result<void> check_visibility(const scene::Knobs& knobs) {
-  const auto visibility = knobs.visibility;
-  if (visibility == scene::Visibility::ot || visibility == scene::Visibility::zbuffer) return {};
-  return base::fail("visibility " + knob_value(knobs, "visibility") +
-                    ": a recording has its own order; expected ot or zbuffer");
-}
-
 // Knobs that a recording cannot follow: a setting of theirs has no price.
 base::Result<void> check_applicable(const scene::Knobs& knobs) {
   static const scene::Knobs console;
@@ -39,6 +40,8 @@ base::Result<void> check_applicable(const scene::Knobs& knobs) {
   return check_visibility(knobs);
 }
 
+}  // namespace
+
 std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn) {
   if (area.width <= 0 || area.height <= 0) {
     return "nothing to show: the display area is empty (" + std::to_string(area.width) + " x " +
@@ -47,8 +50,6 @@ std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::ui
   if (drawn != 0 || !gpu.display().is_off) return {};
   return "nothing to show: the display is off, and the frame draws nothing; F3 shows VRAM";
 }
-
-}  // namespace
 
 display::Area shown_area(const gpu::Gpu& gpu, Shown shown) {
   auto area = display::area_of(gpu.display());

@@ -20,6 +20,11 @@ enum class Shown : std::uint8_t {
   display,
 };
 
+/// What a recording has of its own: an order, not a rule to make one. Error: another than ot or zbuffer.
+base::Result<void> check_visibility(const scene::Knobs& knobs);
+/// Why the frame just drawn, of so many primitives, shows nothing; empty: it shows something.
+std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn);
+
 /// Where the picture of `gpu` lies.
 display::Area shown_area(const gpu::Gpu& gpu, Shown shown);
 

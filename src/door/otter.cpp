@@ -3,7 +3,9 @@
 #include "otter/otter.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
@@ -44,16 +46,33 @@ int fail(const otter* gpu, int code, std::string_view text) noexcept {
   return code;
 }
 
-/// Runs `body`, which returns a code; what it throws becomes one.
-template <class Handle, class Body>
-int guarded(Handle* gpu, const char* function, Body&& body) noexcept {
+// Apart from what is called word by word: inlined there, they would cost every call their registers.
+[[gnu::cold, gnu::noinline]] int no_handle(const char* function) noexcept {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "%s: the handle is null", function);
+  return fail(nullptr, OTTER_NO_HANDLE, text.data());
+}
+/// In a catch clause: what was thrown as a code.
+[[gnu::cold, gnu::noinline]] int thrown(const otter* gpu) noexcept {
   try {
-    if (gpu == nullptr) return fail(nullptr, OTTER_NO_HANDLE, std::string(function) + ": the handle is null");
-    return body(*gpu);
+    throw;
   } catch (const std::bad_alloc&) {
     return fail(gpu, OTTER_NO_MEMORY, "no memory is left");
   } catch (const std::exception& e) {
     return fail(gpu, OTTER_NO_MEMORY, e.what());
+  } catch (...) {
+    return fail(gpu, OTTER_NO_MEMORY, "something was thrown");
+  }
+}
+
+/// Runs `body`, which returns a code; what it throws becomes one.
+template <class Handle, class Body>
+int guarded(Handle* gpu, const char* function, Body&& body) noexcept {
+  if (gpu == nullptr) return no_handle(function);
+  try {
+    return body(*gpu);
+  } catch (...) {
+    return thrown(gpu);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <otter/otter.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -78,6 +79,19 @@ Words ram_with_a_list() {
 }  // namespace
 
 TEST_SUITE("door") {
+  TEST_CASE("Structures lie in memory as they did when libotter.so.1 was named so") {
+    CHECK(sizeof(otter_list) == 7 * 4);
+    CHECK(offsetof(otter_list, nodes) == 12);
+    CHECK(sizeof(otter_area) == 6 * 4);
+    CHECK(sizeof(otter_depth) == 4 * 8);
+    CHECK(sizeof(otter_draw) == (5 + 3 * 4 + 2) * 4);
+    CHECK(offsetof(otter_draw, z) == (5 + 2 * 4) * 4);
+    CHECK(sizeof(otter_write) == 12);
+    CHECK(offsetof(otter_write, rejected) == 11);
+    CHECK(sizeof(otter_pixel_counts) == (3 * 8 + 4) * 8);
+    CHECK(offsetof(otter_pixel_counts, fills) == 3 * 8 * 8);
+  }
+
   TEST_CASE("The library's version is the header's") {
     CHECK(otter_version() == std::to_string(OTTER_VERSION_MAJOR) + "." + std::to_string(OTTER_VERSION_MINOR) +
                                  "." + std::to_string(OTTER_VERSION_PATCH));

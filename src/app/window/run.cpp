@@ -11,9 +11,11 @@
 #include "app/commands/commands.h"
 #include "app/commands/recorded.h"
 #include "app/commands/without_depth.h"
+#include "app/live.h"
 #include "app/source.h"
 #include "app/tape.h"
 #include "app/viewer.h"
+#include "app/window/sdl.h"
 #include "app/window/settings.h"
 #include "app/window/window.h"
 #include "demos/demos.h"
@@ -22,7 +24,8 @@ namespace app {
 namespace {
 
 struct RunOptions {
-  std::string scene, pace, camera, settings, shown;
+  std::string scene, pace, camera, settings, shown, title;
+  std::optional<int> live;
   SourceOptions source_options;
   std::vector<std::string> panels, named_knobs;
   WindowOptions window;
@@ -100,12 +103,33 @@ base::Result<WindowScene> open_entry(const std::string& name, const SourceOption
       true};
 }
 
+// A program of another process, which ends when that does. Modes that it has not got are not remembered ones.
+base::Result<int> run_live(RunOptions& options) {
+  auto& window = options.window;
+  auto& knobs = window.first.knobs;
+  if (knobs.visibility != scene::Visibility::zbuffer) knobs.visibility = scene::Visibility::ot;
+  const auto link = std::make_shared<LiveLink>(*options.live, [] {
+    SDL_Event event{};
+    event.type = SDL_USEREVENT;  // a window at rest looks again
+    SDL_PushEvent(&event);
+  });
+  window.scenes.push_back({options.title.empty() ? "program" : options.title,
+                           [link](const scene::Knobs& /*now*/) {
+                             return base::Result<std::unique_ptr<Subject>>(std::make_unique<Live>(link));
+                           },
+                           true});
+  window.first.live.is_live = true;
+  set_visibility(window.first, knobs.visibility);
+  return run_window(window);
+}
+
 // The demos, and before them a file if one was named; the one that was named is shown first.
 base::Result<int> run(RunOptions& options) {
   auto& window = options.window;
   if (auto prepared = prepare(options); !prepared) return tl::make_unexpected(prepared.error());
   if (auto checked = scene::check_knobs(window.first.knobs); !checked)
     return tl::make_unexpected(checked.error());
+  if (options.live) return run_live(options);
   if (!options.scene.empty() && demos::find(options.scene) == nullptr) {
     // Now, so that a bad file opens no window.
     auto entry = open_entry(options.scene, options.source_options, window.first.knobs, options.shown,
@@ -164,6 +188,9 @@ Action add_run(Arguments arguments) {
                   "begin with these panels: knobs, inspect, cost ...");
   arguments.text("--settings", "PATH|none", options->settings,
                  "what is remembered between runs [~/.config/otter/window.json; none with --frames]");
+  arguments.number("--live", "FD", options->live, 3, 1 << 20,
+                   "a program in an emulator: the plugin's end of this socket sends its frames");
+  arguments.text("--title", "TEXT", options->title, "with --live: what the program is called");
   arguments.number("--frames", "N", window.frames, 1, 1'000'000'000, "quit after N frames");
   arguments.text("--screenshot", "FILE", window.screenshot,
                  "with --frames: write the window's last frame there");
