@@ -527,7 +527,10 @@ void Window::draw() {
 void Window::record() {
   auto* subject = show_.machine();
   if (subject == nullptr) return;
-  if (auto* live = subject->live()) return live->link() != nullptr ? live->link()->ask(door::LiveAsk::record) : void();
+  if (auto* live = subject->live()) {
+    if (live->link() != nullptr) live->link()->ask(door::LiveAsk::record);
+    return;
+  }
   const auto path = free_name(show_.scene_name(), state_.frame, "", ".psxgpu");
   const auto done = subject->record(std::filesystem::absolute(path).string());
   say(done ? *done : done.error().text, !done);

@@ -157,7 +157,7 @@ struct Recorded {
   std::int64_t first = 1;                ///< that there still is: of a live program not the first it had
   std::int64_t last = 0;                 ///< 0: it is a scene
   std::optional<std::int64_t> from, to;  ///< the loop, ends included
-  bool is_growing = false;                  ///< frames are made behind the last
+  bool is_growing = false;               ///< frames are made behind the last
   bool has_ended = false;                ///< no more of them
   bool wants_pad = false;                ///< the keys of app::pad_keys are the program's
   /// The last frame that can be asked for.
