@@ -8,7 +8,6 @@
 #include <iterator>
 #include <utility>
 
-#include "app/source.h"
 #include "debug/item_cutter.h"
 #include "ot/describe.h"
 
@@ -149,13 +148,7 @@ bool Live::take_frames() {
 base::Result<scene::FrameStats> Live::draw(std::int64_t frame, const scene::Knobs& knobs,
                                            const CameraOffset& /*camera*/) {
   if (reel_->is_empty()) return scene::FrameStats{};
-  const auto& clip = reel_->at(frame).clip;
-  const auto drawn = draw_clip(clip, knobs, gpu_, trace_);
-  if (!drawn) return tl::make_unexpected(drawn.error());
-  const auto area = this->area();
-  why_empty_ = empty_reason(gpu_, area, drawn->stats.primitives);
-  picture_ = picture_of_clip(*drawn, gpu_, area, knobs);
-  return drawn->stats;
+  return show(reel_->at(frame).clip, knobs);
 }
 
 base::Result<debug::Clip> Live::clip(std::int64_t frame, const scene::Knobs& knobs,
@@ -170,10 +163,6 @@ std::unique_ptr<Subject> Live::another(const scene::Knobs& /*knobs*/) const {
 
 std::unique_ptr<Subject> Live::apart(std::int64_t frame, const scene::Knobs& /*knobs*/) {
   return std::make_unique<ClipSubject>(reel_->is_empty() ? debug::Clip{} : reel_->at(frame).clip);
-}
-
-std::string Live::why_idle(const scene::KnobInfo& knob) const {
-  return applies_to_recordings(knob.name) ? std::string() : std::string(why_not_for_recordings);
 }
 
 }  // namespace app

@@ -75,11 +75,13 @@ class LiveReel {
   std::deque<Kept> kept_;
 };
 
-class Live final : public Subject {
+class Live final : public ClipDrawer {
  public:
   /// `link` may be null: then frames come by reel() alone.
   explicit Live(std::shared_ptr<LiveLink> link, std::shared_ptr<LiveReel> reel = std::make_shared<LiveReel>())
-      : link_(std::move(link)), reel_(std::move(reel)) {}
+      : ClipDrawer(Shown::either), link_(std::move(link)), reel_(std::move(reel)) {
+    why_empty_ = "no frame has come yet";
+  }
 
   [[nodiscard]] Live* live() override { return this; }
   /// Takes what has come. True: there are new frames.
@@ -93,31 +95,16 @@ class Live final : public Subject {
   /// Knobs that a stream of words can honour are; a canvas lies over the picture of the frame.
   base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                        const CameraOffset& camera) override;
-  void watch(gpu::Trace* trace) override { trace_ = trace; }
-  [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
-  [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
-  [[nodiscard]] display::Area area() const override { return shown_area(gpu_, Shown::either); }
   base::Result<debug::Clip> clip(std::int64_t frame, const scene::Knobs& knobs,
                                  const CameraOffset& camera) override;
   [[nodiscard]] std::unique_ptr<Subject> another(const scene::Knobs& knobs) const override;
   [[nodiscard]] std::unique_ptr<Subject> apart(std::int64_t frame, const scene::Knobs& knobs) override;
-  [[nodiscard]] bool is_recording() const override { return true; }
   [[nodiscard]] std::optional<std::int64_t> first_frame() const override { return reel_->first(); }
   [[nodiscard]] std::optional<std::int64_t> last_frame() const override { return reel_->last(); }
-  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
-    return unwatched_of_clips(knobs);
-  }
-  [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
-  [[nodiscard]] std::string why_empty() const override { return why_empty_; }
 
  private:
   std::shared_ptr<LiveLink> link_;
   std::shared_ptr<LiveReel> reel_;
-  gpu::Trace* trace_ = nullptr;
-  gpu::Gpu gpu_;
-  base::Picture picture_{320, 240};
-  std::string why_empty_ = "no frame has come yet";
 };
 
 }  // namespace app

@@ -50,8 +50,7 @@ base::Result<void> check_applicable(const scene::Knobs& knobs) {
   return check_visibility(knobs);
 }
 
-}  // namespace
-
+/// Why a frame shows nothing; empty: it shows something. `drawn`: its drawing commands.
 std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn) {
   if (area.width <= 0 || area.height <= 0) {
     return "nothing to show: the display area is empty (" + std::to_string(area.width) + " x " +
@@ -60,6 +59,8 @@ std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::ui
   if (drawn != 0 || !gpu.display().is_off) return {};
   return "nothing to show: the display is off, and the frame draws nothing; F3 shows VRAM";
 }
+
+}  // namespace
 
 Shown shown_named(std::string_view name) {
   return name == "drawn" ? Shown::drawn : name == "display" ? Shown::display : Shown::either;
@@ -158,8 +159,25 @@ std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu) {
   return copy;
 }
 
+base::Result<scene::FrameStats> ClipDrawer::show(const debug::Clip& clip, const scene::Knobs& knobs) {
+  const auto drawn = draw_clip(clip, knobs, gpu_, trace_);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  show(*drawn, knobs);
+  return drawn->stats;
+}
+
+void ClipDrawer::show(const DrawnClip& drawn, const scene::Knobs& knobs) {
+  const auto area = shown_area(gpu_, shown_);
+  why_empty_ = empty_reason(gpu_, area, drawn.stats.primitives);
+  picture_ = picture_of_clip(drawn, gpu_, area, knobs);
+}
+
+std::string ClipDrawer::why_idle(const scene::KnobInfo& knob) const {
+  return applies_to_recordings(knob.name) ? std::string() : std::string(why_not_for_recordings);
+}
+
 Tape::Tape(std::string name, std::shared_ptr<debug::Timeline> timeline, Shown shown)
-    : name_(std::move(name)), timeline_(std::move(timeline)), shown_(shown) {}
+    : ClipDrawer(shown), name_(std::move(name)), timeline_(std::move(timeline)) {}
 
 std::uint64_t Tape::within(std::int64_t frame) const {
   const auto last = static_cast<std::int64_t>(std::max<std::uint64_t>(timeline_->frames(), 1));
@@ -185,9 +203,7 @@ base::Result<scene::FrameStats> Tape::draw(std::int64_t frame, const scene::Knob
     if (!clip) return tl::make_unexpected(clip.error());
     drawn = *clip;
   }
-  const auto area = shown_area(gpu_, shown_);
-  why_empty_ = empty_reason(gpu_, area, stats.primitives);
-  picture_ = picture_of_clip(drawn, gpu_, area, knobs);
+  show(drawn, knobs);
   return stats;
 }
 
@@ -207,10 +223,6 @@ std::unique_ptr<Subject> Tape::apart(std::int64_t frame, const scene::Knobs& /*k
 
 std::optional<std::int64_t> Tape::last_frame() const {
   return static_cast<std::int64_t>(std::max<std::uint64_t>(timeline_->frames(), 1));
-}
-
-std::string Tape::why_idle(const scene::KnobInfo& knob) const {
-  return applies_to_recordings(knob.name) ? std::string() : std::string(why_not_for_recordings);
 }
 
 base::Result<scene::FrameStats> ClipSubject::draw(std::int64_t /*frame*/, const scene::Knobs& knobs,
