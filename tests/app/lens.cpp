@@ -45,7 +45,7 @@ std::shared_ptr<debug::Timeline> squares(int frames) {
                                               xy(n, 0),     xy(4, 4),
                                               0xe1000000,   0xe6000000};
     dump.add(dump::PacketType::port0, words);
-    dump.add(dump::PacketType::port1, std::array{std::uint32_t{0x03000000}, std::uint32_t{0x08000001}});
+    dump.add(dump::PacketType::port1, std::array<std::uint32_t, 3>{0x03000000, 0x05000000, 0x08000001});
     dump.add(dump::PacketType::vsync);
     ++dump.vsyncs;
   }
