@@ -35,6 +35,9 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/otter-config-version.cmake 
 install(FILES ${CMAKE_BINARY_DIR}/otter-config.cmake ${CMAKE_BINARY_DIR}/otter-config-version.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter)
 
+install(FILES ${CMAKE_BINARY_DIR}/otter-config.cmake ${CMAKE_BINARY_DIR}/otter-config-version.cmake
+        DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/otter COMPONENT sdk EXCLUDE_FROM_ALL)
+
 # (cd build/release && cpack): one Debian package with the program, the libraries and their headers.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME otter)

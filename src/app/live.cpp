@@ -5,30 +5,14 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <iterator>
 #include <utility>
 
 #include "app/source.h"
 #include "debug/item_cutter.h"
-#include "door/knobs.h"
-#include "gpu/canvas/canvas.h"
 #include "ot/describe.h"
-#include "scene/accurate.h"
-#include "scene/world.h"
 
 namespace app {
-
-namespace {
-
-std::optional<gpu::canvas::Options> canvas_for(const scene::Knobs& knobs, const display::Area& area) {
-  auto sized = knobs;
-  sized.width = area.width;
-  sized.height = area.height;
-  return scene::canvas_options(sized, scene::World{}, 1);
-}
-
-}  // namespace
 
 debug::Clip clip_of(const door::LiveFrame& frame) {
   debug::Clip clip;
@@ -166,55 +150,12 @@ base::Result<scene::FrameStats> Live::draw(std::int64_t frame, const scene::Knob
                                            const CameraOffset& /*camera*/) {
   if (reel_->is_empty()) return scene::FrameStats{};
   const auto& clip = reel_->at(frame).clip;
-  auto drawn = draw_clip(clip, knobs, gpu_, trace_);
-  if (!drawn) return drawn;
+  const auto drawn = draw_clip(clip, knobs, gpu_, trace_);
+  if (!drawn) return tl::make_unexpected(drawn.error());
   const auto area = this->area();
-  why_empty_ = empty_reason(gpu_, area, drawn->primitives);
-  if (area.width <= 0 || area.height <= 0) {
-    picture_ = base::Picture(320, 240);
-    return drawn;
-  }
-  if (canvas_for(knobs, area)) {
-    const auto begin = std::chrono::steady_clock::now();
-    if (auto fits = draw_on_canvas(clip, knobs, area); !fits) return tl::make_unexpected(fits.error());
-    drawn->raster_ms =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
-  } else {
-    picture_ = display::scan_out(gpu_.vram().pixels(), area);
-  }
-  return drawn;
-}
-
-// As far as the clip's area is known: it has been drawn once on VRAM. What is watched is noted there, unless
-// the canvas can be watched itself.
-base::Result<void> Live::draw_on_canvas(const debug::Clip& clip, const scene::Knobs& knobs,
-                                        const display::Area& area) {
-  const auto options = canvas_for(knobs, area);
-  if (gpu::canvas::Canvas::frame_bytes(*options) > scene::canvas_limit_bytes)
-    return base::fail("resolution and antialias ask for a frame that takes more than 2 GiB");
-  accurate_.set_trace(nullptr);
-  accurate_.set_canvas(options);
-  accurate_.begin_frame(area.x, area.y);
-  debug::go_on_from(clip.state, accurate_);  // the canvas takes its picture from VRAM
-  const bool is_watched = trace_ != nullptr && options->can_be_watched();
-  if (is_watched) {
-    trace_->clear();
-    accurate_.set_trace(trace_);
-  }
-  accurate_.begin_frame(area.x, area.y);
-  for (const auto& item : clip.items) {
-    if (is_watched) trace_->bucket = item.bucket;
-    item.is_control ? accurate_.gp1(item.words[0]) : accurate_.gp0(item.words);
-  }
-  (void)accurate_.end_frame();
-  accurate_.set_trace(nullptr);
-  picture_ = presenter_.show(accurate_, knobs);
-  return {};
-}
-
-std::vector<std::uint16_t> Live::vram() const {
-  const auto pixels = gpu_.vram().pixels();
-  return {pixels.begin(), pixels.end()};
+  why_empty_ = empty_reason(gpu_, area, drawn->stats.primitives);
+  picture_ = picture_of_clip(*drawn, gpu_, area, knobs);
+  return drawn->stats;
 }
 
 base::Result<debug::Clip> Live::clip(std::int64_t frame, const scene::Knobs& knobs,
@@ -231,20 +172,8 @@ std::unique_ptr<Subject> Live::apart(std::int64_t frame, const scene::Knobs& /*k
   return std::make_unique<ClipSubject>(reel_->is_empty() ? debug::Clip{} : reel_->at(frame).clip);
 }
 
-std::vector<const scene::KnobInfo*> Live::unwatched_knobs(const scene::Knobs& knobs) {
-  std::vector<const scene::KnobInfo*> asking;
-  for (const auto& knob : scene::knob_table()) {
-    scene::Knobs alone;
-    knob.set(alone, knob.get(knobs));
-    const auto options = canvas_for(alone, area());
-    if (options && !options->can_be_watched()) asking.push_back(&knob);
-  }
-  return asking;
-}
-
 std::string Live::why_idle(const scene::KnobInfo& knob) const {
-  const bool applies = door::find_knob(knob.name) != nullptr || applies_to_recordings(knob.name);
-  return applies ? std::string() : std::string(why_not_for_recordings);
+  return applies_to_recordings(knob.name) ? std::string() : std::string(why_not_for_recordings);
 }
 
 }  // namespace app

@@ -16,7 +16,6 @@
 #include "app/tape.h"
 #include "debug/clip.h"
 #include "door/live.h"
-#include "machine/present.h"
 
 namespace app {
 
@@ -96,7 +95,7 @@ class Live final : public Subject {
                                        const CameraOffset& camera) override;
   void watch(gpu::Trace* trace) override { trace_ = trace; }
   [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override;
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
   [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
   [[nodiscard]] display::Area area() const override { return shown_area(gpu_, Shown::either); }
   base::Result<debug::Clip> clip(std::int64_t frame, const scene::Knobs& knobs,
@@ -106,19 +105,17 @@ class Live final : public Subject {
   [[nodiscard]] bool is_recording() const override { return true; }
   [[nodiscard]] std::optional<std::int64_t> first_frame() const override { return reel_->first(); }
   [[nodiscard]] std::optional<std::int64_t> last_frame() const override { return reel_->last(); }
-  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override;
+  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
+    return unwatched_of_clips(knobs);
+  }
   [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
   [[nodiscard]] std::string why_empty() const override { return why_empty_; }
 
  private:
-  base::Result<void> draw_on_canvas(const debug::Clip& clip, const scene::Knobs& knobs,
-                                    const display::Area& area);
-
   std::shared_ptr<LiveLink> link_;
   std::shared_ptr<LiveReel> reel_;
   gpu::Trace* trace_ = nullptr;
-  gpu::Gpu gpu_, accurate_;
-  machine::Presenter presenter_;
+  gpu::Gpu gpu_;
   base::Picture picture_{320, 240};
   std::string why_empty_ = "no frame has come yet";
 };

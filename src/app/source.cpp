@@ -1,13 +1,13 @@
 #include "app/source.h"
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <utility>
 
 #include "app/commands/open_scene.h"
 #include "app/commands/ram_image.h"
 #include "app/commands/without_depth.h"
+#include "app/tape.h"
 #include "base/file_kind.h"
 #include "base/message.h"
 #include "demos/demos.h"
@@ -16,9 +16,6 @@
 
 namespace app {
 namespace {
-
-constexpr std::array<std::string_view, 8> recording_knobs{
-    "visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far", "without-depth"};
 
 bool has_size_of_ram(const std::string& name) {
   std::error_code error;
@@ -97,18 +94,26 @@ base::Result<std::unique_ptr<debug::Timeline>> open_timeline(Source& source, con
 }
 
 bool applies_to_recordings(std::string_view knob) {
-  return std::ranges::find(recording_knobs, knob) != recording_knobs.end();
+  return std::find(recording_knobs.begin(), recording_knobs.end(), knob) != recording_knobs.end();
 }
 
-void warn_of_idle_knobs(const std::string& name, const scene::Knobs& knobs) {
+void warn_of_idle_knobs(const std::string& name, const scene::Knobs& knobs, DrawnTo drawn_to) {
   const scene::Knobs standard;
-  std::string idle;
+  std::string idle, beyond;
   for (const auto& knob : scene::knob_table()) {
-    if (applies_to_recordings(knob.name) || knob.get(knobs) == knob.get(standard)) continue;
-    idle.append(idle.empty() ? "--" : ", --").append(knob.name);
+    if (knob.get(knobs) == knob.get(standard)) continue;
+    auto alone = standard;
+    knob.set(alone, knob.get(knobs));
+    const bool needs_canvas = knob.name != "visibility" && asks_for_canvas(alone);
+    if (applies_to_recordings(knob.name) && !(needs_canvas && drawn_to == DrawnTo::vram)) continue;
+    auto& names = applies_to_recordings(knob.name) ? beyond : idle;
+    names.append(names.empty() ? "--" : ", --").append(knob.name);
   }
   if (!idle.empty())
     base::warn("otter", name + ": " + idle + ": does nothing, " + std::string(why_not_for_recordings));
+  if (!beyond.empty())
+    base::warn("otter",
+               name + ": " + beyond + ": does nothing here, VRAM itself is looked at; otter render draws it");
 }
 
 void warn_of_fault(const debug::Timeline& timeline) {

@@ -3,6 +3,7 @@
 // list`, a scene file, a GPU dump, or the list in a saved RAM image. Told by what is in the file, never by
 // its name where its bytes say it.
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -51,13 +52,22 @@ base::Result<std::unique_ptr<debug::Timeline>> open_timeline(Source& source, con
 /// How a recording is drawn with these knobs.
 debug::DrawOptions draw_options(const scene::Knobs& knobs);
 
+/// The knobs that do something for a recording; those of them that VRAM cannot hold, in words.
+inline constexpr std::array<std::string_view, 16> recording_knobs{
+    "visibility", "depth",         "depth-mapping", "depth-test", "depth-reversed", "near",
+    "far",        "without-depth", "position",      "texture",    "filter",         "colour",
+    "antialias",  "aa-filter",     "aa-space",      "resolution"};
+inline constexpr std::string_view canvas_knobs =
+    "--position, --texture, --filter, --colour, --antialias, --resolution";
 /// Whether a knob does anything for a recording; of visibility, ot and zbuffer.
 bool applies_to_recordings(std::string_view knob);
 /// Why the others do not, for people.
 inline constexpr std::string_view why_not_for_recordings =
     "a recording holds packets as they were sent, not the world they came from";
+/// What becomes of a recording's pixels: they stay in VRAM, or a canvas beside it may hold them.
+enum class DrawnTo : std::uint8_t { vram, canvas };
 /// One line on stderr that names the knobs which were set and do nothing. Nothing where there are none.
-void warn_of_idle_knobs(const std::string& name, const scene::Knobs& knobs);
+void warn_of_idle_knobs(const std::string& name, const scene::Knobs& knobs, DrawnTo drawn_to);
 
 /// Says on stderr, in one line, what is wrong with the rest of a dump whose first frames are used.
 void warn_of_fault(const debug::Timeline& timeline);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/window/camera.h"
+#include "app/window/pad_keys.h"
 #include "base/picture.h"
 #include "base/result.h"
 #include "debug/clip.h"
@@ -58,6 +59,21 @@ class Subject {
   [[nodiscard]] virtual std::optional<std::int64_t> first_frame() const { return 1; }
   /// Number of its last frame so far, from 1; nothing: it goes on for ever, from 0.
   [[nodiscard]] virtual std::optional<std::int64_t> last_frame() const { return std::nullopt; }
+  /// New frames are made behind the last one while it is played: a program that runs. Frames before it can be
+  /// gone back to.
+  [[nodiscard]] virtual bool is_growing() const { return false; }
+  /// It makes no frames any more.
+  [[nodiscard]] virtual bool has_ended() const { return false; }
+  /// draw() was not done in the time it has: the same frame is to be asked for again.
+  [[nodiscard]] virtual bool is_behind() const { return false; }
+  /// What the user holds, for frames to come; asked for only where wants_pad().
+  [[nodiscard]] virtual bool wants_pad() const { return false; }
+  virtual void hold(const PadHeld& /*pad*/) {}
+  /// Begins or ends a recording of what it sends, into the file `path`. What was done, for the user. Error:
+  /// it cannot be recorded, or not be written.
+  virtual base::Result<std::string> record(const std::string& /*path*/) {
+    return base::fail("F8: nothing here can be recorded; otter record writes a scene as a dump");
+  }
   /// Finds out more of what is to come, for about so long. False: everything is known.
   virtual bool index_some(double /*milliseconds*/) { return false; }
   [[nodiscard]] virtual double progress() const { return 1; }
@@ -78,7 +94,7 @@ class Subject {
   [[nodiscard]] virtual std::string why_idle(const scene::KnobInfo& /*knob*/) const { return {}; }
   /// Lines for the user, once.
   [[nodiscard]] virtual std::vector<std::string> report() const { return {}; }
-  /// Why the frame last drawn shows nothing; empty: it shows something.
+  /// Why the frame last drawn shows nothing, or why it is the last one; empty: there is nothing to say.
   [[nodiscard]] virtual std::string why_empty() const = 0;
 };
 

@@ -6,8 +6,11 @@
 
 #include "app/commands/describe.h"
 #include "app/source.h"
+#include "gpu/canvas/canvas.h"
 #include "gpu/depth.h"
+#include "machine/present.h"
 #include "scene/plan.h"
+#include "scene/world.h"
 
 namespace app {
 
@@ -28,6 +31,13 @@ double ms_since(Clock::time_point begin) {
 
 bool overlap(const display::Area& a, int x, int y, int width, int height) {
   return a.x < x + width && x < a.x + a.width && a.y < y + height && y < a.y + a.height;
+}
+
+// The accurate target that the knobs ask for; a recording's polygons may be of any kind.
+std::optional<gpu::canvas::Options> canvas_of(const scene::Knobs& knobs) {
+  auto followed = knobs;
+  followed.fog = scene::Knobs().fog;  // of the world, which no packet tells
+  return scene::canvas_options(followed, scene::World{}, 1);
 }
 
 // Knobs that a recording cannot follow: a setting of theirs has no price.
@@ -51,12 +61,19 @@ std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::ui
   return "nothing to show: the display is off, and the frame draws nothing; F3 shows VRAM";
 }
 
+Shown shown_named(std::string_view name) {
+  return name == "drawn" ? Shown::drawn : name == "display" ? Shown::display : Shown::either;
+}
+
+bool asks_for_canvas(const scene::Knobs& knobs) { return canvas_of(knobs).has_value(); }
+
 display::Area shown_area(const gpu::Gpu& gpu, Shown shown) {
   auto area = display::area_of(gpu.display());
   area.is_off = false;  // who debugs wants to see it all the same
   const auto& state = gpu.state();
   const int width = state.right() - state.left() + 1, height = state.bottom() - state.top() + 1;
-  const bool is_beside = width > 0 && height > 0 && !overlap(area, state.left(), state.top(), width, height);
+  const bool is_beside =
+      machine::draws_picture(gpu) && !overlap(area, state.left(), state.top(), width, height);
   if (shown == Shown::display || (shown == Shown::either && !is_beside)) return area;
   if (width <= 0 || height <= 0) return area;
   return {state.left(),
@@ -67,26 +84,78 @@ display::Area shown_area(const gpu::Gpu& gpu, Shown shown) {
           false};
 }
 
-base::Result<scene::FrameStats> draw_clip(const debug::Clip& clip, const scene::Knobs& knobs, gpu::Gpu& gpu,
-                                          gpu::Trace* trace) {
+base::Result<DrawnClip> draw_clip(const debug::Clip& clip, const scene::Knobs& knobs, gpu::Gpu& gpu,
+                                  gpu::Trace* trace) {
   if (auto checked = check_visibility(knobs); !checked) return tl::make_unexpected(checked.error());
   const auto begin = Clock::now();
   const bool by_bucket = knobs.without_depth == scene::WithoutDepth::bucket && clip.buckets != 0;
-  debug::PlayOptions options{.depth = scene::depth_options(knobs), .trace = trace};
-  if (by_bucket) {
-    options.before = [&](std::size_t item) {
-      const auto bucket = clip.items[item].bucket;
-      if (bucket < clip.buckets) gpu.set_default_depth(gpu::depth_of_bucket(bucket, clip.buckets));
-    };
-  }
-  debug::play(clip, gpu, options);
+  const auto canvas = canvas_of(knobs);
+  DrawnClip drawn;
+  debug::PlayOptions options{.depth = canvas ? std::nullopt : scene::depth_options(knobs), .trace = trace};
+  options.before = [&](std::size_t number) {
+    const auto& item = clip.items[number];
+    if (by_bucket && item.bucket < clip.buckets) {
+      gpu.set_default_depth(gpu::depth_of_bucket(item.bucket, clip.buckets));
+    }
+    if (canvas && !drawn.canvas && item.is_drawing()) drawn.canvas = machine::place_canvas(gpu, *canvas);
+  };
+  gpu.set_canvas(std::nullopt);
+  drawn.end = debug::play(clip, gpu, options);
   gpu.set_default_depth(std::nullopt);
-  scene::FrameStats stats;
-  stats.primitives = static_cast<std::uint32_t>(std::count_if(
+  drawn.stats.primitives = static_cast<std::uint32_t>(std::count_if(
       clip.items.begin(), clip.items.end(), [](const auto& item) { return item.is_drawing(); }));
-  stats.faces = stats.primitives;
-  stats.raster_ms = ms_since(begin);
-  return stats;
+  drawn.stats.faces = drawn.stats.primitives;
+  drawn.stats.raster_ms = ms_since(begin);
+  return drawn;
+}
+
+namespace {
+
+/// `area` of the picture on the canvas; nothing where it does not lie there.
+std::optional<base::Picture> part_of_canvas(const DrawnClip& drawn, const gpu::Gpu& gpu,
+                                            const display::Area& area, const scene::Knobs& knobs) {
+  if (!drawn.canvas) return std::nullopt;
+  const auto& size = gpu.canvas()->options();
+  const int left = area.x - drawn.canvas->x, top = area.y - drawn.canvas->y;
+  if (left < 0 || top < 0 || left + area.width > size.width || top + area.height > size.height)
+    return std::nullopt;
+  auto whole = machine::Presenter().show(gpu, knobs);
+  if (area.width == size.width && area.height == size.height) return whole;
+  const int across = whole.width / size.width, down = whole.height / size.height;
+  base::Picture part(area.width * across, area.height * down);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) part.at(x, y) = whole.at(left * across + x, top * down + y);
+  return part;
+}
+
+}  // namespace
+
+base::Picture picture_of_clip(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area,
+                              const scene::Knobs& knobs) {
+  if (area.width <= 0 || area.height <= 0) return {320, 240};
+  machine::Presenter presenter;
+  if (auto picture = part_of_canvas(drawn, gpu, area, knobs)) return *std::move(picture);
+  return presenter.show(display::scan_out(gpu.vram().pixels(), area), knobs);
+}
+
+std::vector<const scene::KnobInfo*> unwatched_of_clips(const scene::Knobs& knobs) {
+  std::vector<const scene::KnobInfo*> asking;
+  for (const auto& knob : scene::knob_table()) {
+    if (!applies_to_recordings(knob.name)) continue;
+    scene::Knobs alone;
+    knob.set(alone, knob.get(knobs));
+    const auto canvas = canvas_of(alone);
+    if (canvas && !canvas->can_be_watched()) asking.push_back(&knob);
+  }
+  return asking;
+}
+
+std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu) {
+  const auto pixels = gpu.vram().pixels();
+  std::vector<std::uint16_t> copy(pixels.begin(), pixels.end());
+  const auto* canvas = gpu.canvas();
+  if (canvas != nullptr && canvas->options().can_be_watched()) canvas->put_into(copy);
+  return copy;
 }
 
 Tape::Tape(std::string name, std::shared_ptr<debug::Timeline> timeline, Shown shown)
@@ -100,8 +169,10 @@ std::uint64_t Tape::within(std::int64_t frame) const {
 base::Result<scene::FrameStats> Tape::draw(std::int64_t frame, const scene::Knobs& knobs,
                                            const CameraOffset& /*camera*/) {
   const auto number = within(frame);
-  scene::FrameStats stats;
-  if (knobs.visibility == scene::Visibility::ot) {
+  DrawnClip drawn;
+  auto& stats = drawn.stats;
+  if (knobs.visibility == scene::Visibility::ot && !asks_for_canvas(knobs)) {
+    gpu_.set_canvas(std::nullopt);
     const auto begin = Clock::now();
     trace_ != nullptr ? static_cast<void>(timeline_->watch(number, *trace_))
                       : static_cast<void>(timeline_->seek({.frame = number, .command = debug::whole_frame}));
@@ -110,20 +181,14 @@ base::Result<scene::FrameStats> Tape::draw(std::int64_t frame, const scene::Knob
     for (const auto& command : timeline_->commands(number)) stats.primitives += command.drawing != 0 ? 1 : 0;
     stats.faces = stats.primitives;
   } else {
-    auto drawn = draw_clip(debug::clip_of(*timeline_, number), knobs, gpu_, trace_);
-    if (!drawn) return drawn;
-    stats = *drawn;
+    auto clip = draw_clip(debug::clip_of(*timeline_, number), knobs, gpu_, trace_);
+    if (!clip) return tl::make_unexpected(clip.error());
+    drawn = *clip;
   }
   const auto area = shown_area(gpu_, shown_);
   why_empty_ = empty_reason(gpu_, area, stats.primitives);
-  picture_ = area.width > 0 && area.height > 0 ? display::scan_out(gpu_.vram().pixels(), area)
-                                               : base::Picture(320, 240);
+  picture_ = picture_of_clip(drawn, gpu_, area, knobs);
   return stats;
-}
-
-std::vector<std::uint16_t> Tape::vram() const {
-  const auto pixels = gpu_.vram().pixels();
-  return {pixels.begin(), pixels.end()};
 }
 
 base::Result<debug::Clip> Tape::clip(std::int64_t frame, const scene::Knobs& knobs,
@@ -151,12 +216,9 @@ std::string Tape::why_idle(const scene::KnobInfo& knob) const {
 base::Result<scene::FrameStats> ClipSubject::draw(std::int64_t /*frame*/, const scene::Knobs& knobs,
                                                   const CameraOffset& /*camera*/) {
   if (auto checked = check_applicable(knobs); !checked) return tl::make_unexpected(checked.error());
-  return draw_clip(clip_, knobs, gpu_, trace_);
-}
-
-std::vector<std::uint16_t> ClipSubject::vram() const {
-  const auto pixels = gpu_.vram().pixels();
-  return {pixels.begin(), pixels.end()};
+  const auto drawn = draw_clip(clip_, knobs, gpu_, trace_);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  return drawn->stats;
 }
 
 }  // namespace app

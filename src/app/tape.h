@@ -3,12 +3,14 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/subject.h"
 #include "debug/clip.h"
 #include "debug/timeline.h"
 #include "display/scanout.h"
+#include "machine/canvas_place.h"
 
 namespace app {
 
@@ -22,11 +24,33 @@ enum class Shown : std::uint8_t {
 
 /// What a recording has of its own: an order, not a rule to make one. Error: another than ot or zbuffer.
 base::Result<void> check_visibility(const scene::Knobs& knobs);
-/// Why the frame just drawn, of so many primitives, shows nothing; empty: it shows something.
-std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn);
+/// "drawn", "display"; anything else is either.
+Shown shown_named(std::string_view name);
 
-/// Where the picture of `gpu` lies.
+/// Where the picture of `gpu` lies. A drawing area much smaller than the screen is a texture, and no picture.
 display::Area shown_area(const gpu::Gpu& gpu, Shown shown);
+
+/// A clip as it was drawn.
+struct DrawnClip {
+  scene::FrameStats stats;
+  gpu::FrameEnd end;                      ///< of a z-buffer
+  std::optional<machine::Corner> canvas;  ///< where in VRAM the canvas lies, if the knobs ask for one
+};
+/// Draws a clip as the knobs say, on a canvas where they ask for one. Error: knobs that a recording cannot
+/// meet.
+base::Result<DrawnClip> draw_clip(const debug::Clip& clip, const scene::Knobs& knobs, gpu::Gpu& gpu,
+                                  gpu::Trace* trace);
+/// What `area` shows of it: the canvas where it lies there, or VRAM. An empty area is a black picture.
+base::Picture picture_of_clip(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area,
+                              const scene::Knobs& knobs);
+/// Whether the knobs ask for more samples, bits or fractions than VRAM has.
+bool asks_for_canvas(const scene::Knobs& knobs);
+/// See Subject::unwatched_knobs.
+std::vector<const scene::KnobInfo*> unwatched_of_clips(const scene::Knobs& knobs);
+/// VRAM, with the canvas in 16 bits where it can be watched.
+std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu);
+/// Why a frame of a recording shows nothing; empty: it shows something. `drawn`: its drawing commands.
+std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn);
 
 class Tape final : public Subject {
  public:
@@ -38,7 +62,7 @@ class Tape final : public Subject {
                                        const CameraOffset& camera) override;
   void watch(gpu::Trace* trace) override { trace_ = trace; }
   [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override;
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
   [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
   [[nodiscard]] display::Area area() const override { return shown_area(gpu_, shown_); }
   base::Result<debug::Clip> clip(std::int64_t frame, const scene::Knobs& knobs,
@@ -50,6 +74,9 @@ class Tape final : public Subject {
   bool index_some(double milliseconds) override { return timeline_->index_some(milliseconds); }
   [[nodiscard]] double progress() const override { return timeline_->progress(); }
   [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
+  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
+    return unwatched_of_clips(knobs);
+  }
   [[nodiscard]] std::string why_empty() const override { return why_empty_; }
   [[nodiscard]] const debug::Timeline& timeline() const { return *timeline_; }
 
@@ -73,7 +100,7 @@ class ClipSubject final : public Subject {
                                        const CameraOffset& camera) override;
   void watch(gpu::Trace* trace) override { trace_ = trace; }
   [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override;
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
   [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
   base::Result<debug::Clip> clip(std::int64_t /*frame*/, const scene::Knobs& /*knobs*/,
                                  const CameraOffset& /*camera*/) override {
@@ -86,6 +113,9 @@ class ClipSubject final : public Subject {
     return another(knobs);
   }
   [[nodiscard]] bool is_recording() const override { return true; }
+  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
+    return unwatched_of_clips(knobs);
+  }
   [[nodiscard]] std::string why_empty() const override { return {}; }
 
  private:
@@ -94,10 +124,5 @@ class ClipSubject final : public Subject {
   gpu::Gpu gpu_;
   base::Picture picture_;
 };
-
-/// Draws a clip as the knobs say and tells what became of it. Error: knobs that a recording cannot meet,
-/// polygons without depth where that is refused.
-base::Result<scene::FrameStats> draw_clip(const debug::Clip& clip, const scene::Knobs& knobs, gpu::Gpu& gpu,
-                                          gpu::Trace* trace);
 
 }  // namespace app

@@ -72,6 +72,21 @@ std::string Item::text() const {
   return ot::describe(told.first(std::min(told.size(), ot::CommandStream::kept_words)), command.size());
 }
 
+std::vector<Item> items_of(const std::vector<Sent>& sent) {
+  std::vector<Item> items;
+  ItemCutter cutter(items);
+  for (const auto& one : sent) {
+    if (one.is_control) {
+      for (const auto word : one.words) cutter.gp1(word);
+      continue;
+    }
+    cutter.set_node(one.address, one.bucket, one.origin);
+    cutter.gp0(one.words);
+  }
+  cutter.finish();
+  return items;
+}
+
 Clip clip_of(Timeline& timeline, std::uint64_t frame) {
   const auto& recording = timeline.recording();
   if (recording.image()) {
@@ -79,6 +94,7 @@ Clip clip_of(Timeline& timeline, std::uint64_t frame) {
                         recording.start());
   }
   Clip clip;
+  clip.buckets = recording.buckets();
   clip.state = timeline.seek({.frame = frame, .command = 0}).save();
   const auto& dump = timeline.dump();
   const auto& where = timeline.frame(frame);
@@ -101,6 +117,8 @@ Clip clip_of(Timeline& timeline, std::uint64_t frame) {
                                : n == begin.packet ? std::min<std::size_t>(begin.word, words.size())
                                                    : 0;
     if (before != 0) cutter.rest(words.first(before), is_late);
+    const auto* node = recording.node_at(packet.first);
+    cutter.set_node(0, node == nullptr ? gpu::no_bucket : node->bucket, {});
     cutter.gp0(words.subspan(before));
   }
   cutter.finish();
@@ -157,15 +175,21 @@ gpu::FrameEnd play(const Clip& clip, gpu::Gpu& gpu, const PlayOptions& options) 
   return end;
 }
 
-void write_clip(const Clip& clip, dump::DumpWriter& writer) {
+void add_state(std::span<const std::byte> state, dump::Dump& dump) {
   gpu::Gpu gpu;
-  go_on_from(clip.state, gpu);
+  go_on_from(state, gpu);
   const std::array reset{std::uint32_t{0}};
-  writer.add(dump::PacketType::port1, reset);
-  writer.add(dump::PacketType::port0, upload_of(gpu.vram()));
-  writer.add(dump::PacketType::port0, registers_of(gpu.state()));
-  writer.add(dump::PacketType::port1, display_words(gpu.display()));
-  writer.add(dump::PacketType::trace_begin);
+  dump.add(dump::PacketType::port1, reset);
+  dump.add(dump::PacketType::port0, upload_of(gpu.vram()));
+  dump.add(dump::PacketType::port0, registers_of(gpu.state()));
+  dump.add(dump::PacketType::port1, display_words(gpu.display()));
+  dump.add(dump::PacketType::trace_begin);
+}
+
+void write_clip(const Clip& clip, dump::DumpWriter& writer) {
+  dump::Dump before;
+  add_state(clip.state, before);
+  for (const auto& packet : before.packets) writer.add(packet.type, before.payload(packet));
   for (const auto& item : clip.items) {
     writer.add(item.is_control ? dump::PacketType::port1 : dump::PacketType::port0, item.words);
   }

@@ -38,12 +38,24 @@ struct Item {
   [[nodiscard]] std::string text() const;
 };
 
+/// Words as they were sent, and where they come from. A command may go on in the words sent next.
+struct Sent {
+  bool is_control = false;  ///< one word of port 1
+  std::uint32_t bucket = gpu::no_bucket;
+  std::uint32_t address = 0;  ///< of its packet's tag; 0: it lies in no list
+  std::string origin{};
+  std::vector<std::uint32_t> words{};
+};
+/// The commands in what was sent, with their annotations and pixels.
+std::vector<Item> items_of(const std::vector<Sent>& sent);
+
 struct Clip {
   std::vector<std::byte> state;  ///< of the GPU before the first item, as gpu::Gpu::save() has it
   std::vector<Item> items;
   std::uint32_t buckets = 0;            ///< length of the ordering table; 0: none is known
   bool is_list_in_ram = false;          ///< items have addresses
   std::vector<inspect::LintItem> lint;  ///< of the list, what has a place as "123000h" first
+  std::vector<std::string> notes{};     ///< about where it comes from, lines for people
 };
 
 /// Frame `frame` of a recording, 1..frames().
@@ -64,6 +76,9 @@ gpu::FrameEnd play(const Clip& clip, gpu::Gpu& gpu, const PlayOptions& options);
 
 /// Goes on from a state that gpu::Gpu::save() made in this program; of nothing it stays as it is.
 void go_on_from(std::span<const std::byte> state, gpu::Gpu& gpu);
+
+/// The packets that make a state on a new GPU, and PacketType::trace_begin behind them.
+void add_state(std::span<const std::byte> state, dump::Dump& dump);
 
 /// A dump that makes the state first, behind a PacketType::trace_begin packet sends the items, and ends with
 /// a VSync. Replayed on a new GPU it leaves what playing the clip leaves.

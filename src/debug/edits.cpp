@@ -62,7 +62,7 @@ Edited apply(const Clip& clip, const Edits& edits) {
   for (const auto& one : edits.moves) move(order, one);
 
   Edited edited;
-  edited.clip = {clip.state, {}, clip.buckets, clip.is_list_in_ram, clip.lint};
+  edited.clip = {clip.state, {}, clip.buckets, clip.is_list_in_ram, clip.lint, clip.notes};
   gpu::Gpu gpu;
   go_on_from(clip.state, gpu);
   std::uint32_t draw_mode = gpu.state().draw_mode;

@@ -72,7 +72,7 @@ void Player::send_words(std::span<const std::uint32_t> words, std::uint32_t firs
       const std::uint32_t bucket = std::prev(next)->bucket;
       if (gpu_.trace() != nullptr) gpu_.trace()->bucket = bucket;
       if (options_.depth_of_bucket && bucket != gpu::no_bucket)
-        gpu_.set_default_depth(gpu::depth_of_bucket(bucket, recording_.image()->table->length));
+        gpu_.set_default_depth(gpu::depth_of_bucket(bucket, recording_.buckets()));
     }
     const auto count =
         next == nodes.end() ? words.size() : std::min<std::size_t>(words.size(), next->first - first);

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "dump/bucket_note.h"
 #include "ot/gp1.h"
 #include "ot/packet.h"
 #include "ot/walker.h"
@@ -42,7 +43,18 @@ base::Result<Recording> Recording::open(const std::filesystem::path& path) {
   return recording;
 }
 
-Recording::Recording(dump::Dump dump) : memory_(std::move(dump)) {}
+Recording::Recording(dump::Dump dump) : memory_(std::move(dump)) { take_notes(); }
+
+void Recording::take_notes() {
+  const auto& packets = dump().packets;
+  for (; packets_noted_ < packets.size(); ++packets_noted_) {
+    const auto& packet = packets[packets_noted_];
+    const auto note = dump::bucket_note(dump(), packet);
+    if (!note) continue;
+    nodes_.push_back({packet.first + packet.count, 0, note->length == 0 ? gpu::no_bucket : note->bucket});
+    noted_buckets_ = std::max(noted_buckets_, note->length);
+  }
+}
 
 base::Result<Recording> Recording::of_list(RamImage image, std::vector<std::uint16_t> vram) {
   Recording recording;
@@ -71,7 +83,12 @@ base::Result<Recording> Recording::of_list(RamImage image, std::vector<std::uint
   return recording;
 }
 
-bool Recording::read_some(std::size_t bytes) { return file_ && file_->read_some(bytes); }
+bool Recording::read_some(std::size_t bytes) {
+  if (!file_) return false;
+  const bool is_more = file_->read_some(bytes);
+  take_notes();
+  return is_more;
+}
 
 base::Result<void> Recording::read_all() {
   while (read_some(std::size_t{1} << 20)) {

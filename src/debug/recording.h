@@ -17,10 +17,11 @@
 
 namespace debug {
 
-/// A node of a list in RAM whose payload begins at word `first` of the recording.
+/// A node of a list in RAM whose payload begins at word `first` of the recording, or of a dump what hangs on
+/// one bucket (dump/bucket_note.h).
 struct Node {
   std::uint32_t first = 0;    ///< index into Dump::words
-  std::uint32_t address = 0;  ///< of its tag
+  std::uint32_t address = 0;  ///< of its tag; in a dump 0
   std::uint32_t bucket = 0;   ///< gpu::no_bucket without a table, or before its first entry
 };
 
@@ -56,21 +57,29 @@ class Recording {
 
   /// The state of the GPU before the first packet, as gpu::Gpu::save() has it; empty: a new one.
   [[nodiscard]] const std::vector<std::byte>& start() const { return start_; }
-  /// Of a list in RAM: its nodes in list order, and the image. Empty for dumps.
+  /// Of a list in RAM: its nodes in list order, and the image. Of a dump nodes are there where it names
+  /// buckets, and no image is.
   [[nodiscard]] const std::vector<Node>& nodes() const { return nodes_; }
   [[nodiscard]] const std::optional<RamImage>& image() const { return image_; }
-  [[nodiscard]] bool has_buckets() const { return image_ && image_->table; }
+  [[nodiscard]] bool has_buckets() const { return buckets() != 0; }
+  /// The length of the ordering table, of several the longest so far; 0: none is known.
+  [[nodiscard]] std::uint32_t buckets() const {
+    return image_ && image_->table ? image_->table->length : noted_buckets_;
+  }
   /// The node whose payload has word `index` of Dump::words; nullptr: there are no nodes.
   [[nodiscard]] const Node* node_at(std::uint32_t index) const;
 
  private:
   Recording() = default;
+  void take_notes();
 
   std::optional<dump::DumpFile> file_;
   dump::Dump memory_;
   std::vector<std::byte> start_;
   std::vector<Node> nodes_;
   std::optional<RamImage> image_;
+  std::size_t packets_noted_ = 0;  // packets of the dump that were looked at for notes
+  std::uint32_t noted_buckets_ = 0;
   std::string no_fault_;
 };
 

@@ -176,7 +176,7 @@ Number Timeline::number_of(std::uint64_t frame, const Command& command) const {
 
 std::string Timeline::origin_of(const Command& command) const {
   const Node* const node = command.is_control ? nullptr : recording_.node_at(command.first);
-  return node == nullptr ? std::string() : ot::address_text(node->address);
+  return node == nullptr || node->address == 0 ? std::string() : ot::address_text(node->address);
 }
 
 Place Timeline::place_of(const Number& number) {

@@ -15,6 +15,8 @@ class Presenter {
   /// The picture of the frame just drawn with `knobs`. The display area of VRAM where the knobs ask for no
   /// canvas; otherwise the canvas, `resolution` times as wide and high.
   [[nodiscard]] base::Picture show(const gpu::Gpu& gpu, const scene::Knobs& knobs);
+  /// A picture that is scanned out already, with the filters for pictures without a canvas.
+  [[nodiscard]] static base::Picture show(base::Picture scanned, const scene::Knobs& knobs);
   /// Frames to draw and show before one that stands alone: temporal accumulation needs its history.
   [[nodiscard]] static int frames_before(const scene::Knobs& knobs);
   void forget() { accumulator_.forget(); }

@@ -35,6 +35,7 @@ void after_blank() {
     if (buffer.bytes != nullptr)
       std::memcpy(buffer.bytes, said.bytes.data(), std::min(said.count, buffer.length));
   }
+  run_timers();
   if (console.on_blank != nullptr) console.on_blank();
 }
 

@@ -10,6 +10,7 @@
 #include "sdk/depth_notes.h"
 #include "sdk/feed.h"
 #include "sdk/handover.h"
+#include "sdk/memory.h"
 #include "sdk/pads.h"
 #include "sdk/program_lint.h"
 
@@ -21,6 +22,7 @@ struct PadBuffer {
 };
 
 struct Console {
+  ProgramMemory memory;                ///< of the program
   ot::MainRam ram{ot::RamSize::mib8};  ///< the memory as it was when the last list was drawn
   gpu::Gpu gpu;
   gte::Registers gte;
@@ -52,6 +54,9 @@ constexpr std::int16_t half(int value) { return static_cast<std::int16_t>(value)
 
 /// On the program's thread, after a vertical blank: controllers, then the program's callback.
 void after_blank();
+
+/// The three timers pass the time of one blank, and their callbacks run.
+void run_timers();
 
 /// False, and a finding at `site`, if `p` is null or no address at all.
 bool is_usable(const void* p, const char* call, CallSite site);

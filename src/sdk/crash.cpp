@@ -69,7 +69,7 @@ void catch_crashes() {
   action.sa_flags = SA_ONSTACK | SA_NODEFER;
   for (const int number : fatal) sigaction(number, &action, nullptr);
   // The stack's last page may be read, when memory is copied, but not written.
-  mprotect(program_stack().data(), page, PROT_READ);
+  mprotect(the_console().memory.stack.data(), page, PROT_READ);
 }
 
 Crash describe_crash() {

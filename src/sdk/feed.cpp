@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "dump/bucket_note.h"
 #include "gpu/canvas/canvas.h"
+#include "gpu/depth.h"
 #include "ot/gp0.h"
 #include "ot/gp1.h"
 
@@ -33,6 +35,7 @@ void Feed::flush() {
 void Feed::gp1(std::uint32_t word) {
   flush();
   if (dump_) dump_->add(PacketType::port1, std::span(&word, 1));
+  if (keeps_) keep(std::span(&word, 1), true);
   if (ot::gp1::aborts_command(word)) stream_.abort();
   gpu_.gp1(word);
 }
@@ -40,12 +43,44 @@ void Feed::gp1(std::uint32_t word) {
 void Feed::send(std::span<const std::uint32_t> words, bool is_depth) {
   if (dump_ && (!is_depth || records_depth_))
     unrecorded_.insert(unrecorded_.end(), words.begin(), words.end());
+  if (keeps_ && !words.empty()) keep(words, false);
   gpu_.gp0(words);
+}
+
+void Feed::note_bucket() {
+  const dump::BucketNote note{hook_.length == 0 ? 0 : hook_.bucket, hook_.length};
+  if (note == noted_) return;
+  flush();
+  dump_->add_text(PacketType::comment, dump::to_text(note));
+  noted_ = note;
+}
+
+void Feed::keep(std::span<const std::uint32_t> words, bool is_control) {
+  const bool goes_on = !kept_.empty() && !is_control && !kept_.back().is_control &&
+                       kept_.back().address == packet_ && kept_.back().bucket == hook_.bucket &&
+                       kept_.back().table == hook_.address;
+  if (!goes_on) {
+    kept_.push_back({is_control,
+                     hook_.bucket,
+                     hook_.address,
+                     hook_.length,
+                     packet_,
+                     packet_ == 0 ? nullptr : lint_.site_of(packet_),
+                     {}});
+  }
+  auto& all = kept_.back().words;
+  all.insert(all.end(), words.begin(), words.end());
 }
 
 void Feed::gp0(std::span<const std::uint32_t> words) { packet(words, 0); }
 
 void Feed::packet(std::span<const std::uint32_t> words, std::uint32_t address) {
+  packet_ = address == 0 ? 0 : address - 4;
+  if (dump_) note_bucket();
+  if (targets_.depth_of_bucket) {
+    gpu_.set_default_depth(
+        hook_.length == 0 ? std::nullopt : std::optional(gpu::depth_of_bucket(hook_.bucket, hook_.length)));
+  }
   std::size_t begin = 0, at = 0;  // words[begin..at) belong to a command that is not whole here
   while (at < words.size()) {
     const auto length = gp0::command_words(words[at]);
@@ -106,17 +141,9 @@ void Feed::check_texture(std::span<const std::uint32_t> words) {
 
 void Feed::place_canvas() {
   if (!targets_.canvas || canvas_is_open_) return;
-  const auto& state = gpu_.state();
-  const int width = state.right() - state.left() + 1, height = state.bottom() - state.top() + 1;
-  // A drawing area much smaller than the screen is a texture that is drawn first.
-  if (width <= 0 || height <= 0 || width * height * 2 < gpu_.display().width() * gpu_.display().height())
-    return;
-  auto options = *targets_.canvas;
-  options.width = width;
-  options.height = height;
-  gpu_.set_canvas(options);
-  gpu_.begin_frame(state.left(), state.top());
-  corner_ = Corner{state.left(), state.top()};
+  const auto corner = machine::place_canvas(gpu_, *targets_.canvas);
+  if (!corner) return;
+  corner_ = corner;
   canvas_is_open_ = true;
 }
 

@@ -8,8 +8,9 @@ namespace sdk {
 namespace {
 
 // Of the program's thread alone, and of signal handlers on it.
-thread_local volatile int calls = 0;
-thread_local void (*volatile pending)() = nullptr;
+// Initial-exec: found without a call, as a library that is loaded at the start may.
+__attribute__((tls_model("initial-exec"))) thread_local volatile int calls = 0;
+__attribute__((tls_model("initial-exec"))) thread_local void (*volatile pending)() = nullptr;
 
 timespec after(Handover::Milliseconds time) {
   timespec now{};

@@ -1,5 +1,6 @@
 #include "sdk/host.h"
 
+#include <fcntl.h>
 #include <pthread.h>
 #include <unistd.h>
 
@@ -8,11 +9,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
+#include <filesystem>
 #include <map>
 #include <thread>
 #include <utility>
 
 #include "app/commands/progress.h"
+#include "base/message.h"
 #include "base/write_file.h"
 #include "display/png.h"
 #include "display/scanout.h"
@@ -24,8 +28,9 @@
 #include "sdk/console.h"
 #include "sdk/crash.h"
 #include "sdk/memory.h"
+#include "sdk/program_window.h"
+#include "sdk/remote.h"
 #include "sdk/report.h"
-#include "sdk/window.h"
 
 namespace sdk {
 namespace {
@@ -69,6 +74,7 @@ class Screen {
     wanted.knobs = knobs;
     if (wanted.needs_depth()) console.depth.start();
     targets.annotate = targets.canvas || wanted.annotate || knobs.visibility == scene::Visibility::zbuffer;
+    targets.depth_of_bucket = knobs.without_depth == scene::WithoutDepth::bucket;
     console.gpu.set_depth(targets.canvas ? std::nullopt : scene::depth_options(knobs));
     if (!targets.canvas) console.gpu.set_canvas(std::nullopt);
     console.gpu.begin_frame();
@@ -91,13 +97,13 @@ class Screen {
   [[nodiscard]] base::Picture picture() {
     auto& console = the_console();
     auto area = display::area_of(console.gpu.display());
-    if (settings_.shown == Shown::drawn) {
+    if (settings_.shown == app::Shown::drawn) {
       area.x = console.gpu.state().left();
       area.y = console.gpu.state().top();
     }
-    const auto canvas = drawn_.find(settings_.shown == Shown::drawn ? last_ : std::pair{area.x, area.y});
+    const auto canvas = drawn_.find(settings_.shown == app::Shown::drawn ? last_ : std::pair{area.x, area.y});
     if (canvas != drawn_.end() && !area.is_off) return canvas->second;
-    if (console.gpu.canvas() == nullptr && settings_.shown == Shown::display)
+    if (console.gpu.canvas() == nullptr && settings_.shown != app::Shown::drawn)
       return presenter_.show(console.gpu, knobs_);
     return display::scan_out(console.gpu.vram().pixels(), area);
   }
@@ -116,20 +122,25 @@ class Host {
       : settings_(settings), name_(std::move(name)), screen_(settings) {}
 
   int run(int (*program_main)(int, char**)) {
-    if (auto laid_out = check_layout(); !laid_out) return complain(laid_out.error());
+    if (auto laid_out = check_layout(the_console().memory); !laid_out) return complain(laid_out.error());
     if (!settings_.is_headless()) {
-      auto window = Window::open(name_);
-      if (!window) return complain(window.error());
-      window_ = std::move(*window);
+      const auto shown = show_in_window(settings_, name_);
+      return shown ? *shown : complain(shown.error());
     }
     auto& console = the_console();
     console.reversed = settings_.reversed;
     console.has_second_pad = !settings_.pads[1].empty();
     if (!settings_.record.empty()) console.feed.record(settings_.annotate);
     screen_.choose_targets(settings_.knobs);
+    if (settings_.served) {
+      line_ = std::make_unique<Line>(*settings_.served);
+      console.feed.keep();
+      wait_for_orders();
+      if (closed_) return 0;
+    }
     start({program_main, name_.c_str()});
     loop();
-    return finish();
+    return line_ ? 0 : finish();
   }
 
  private:
@@ -144,7 +155,7 @@ class Host {
     std::signal(SIGUSR2, [](int) { interrupt(park); });
     pthread_attr_t attributes;
     pthread_attr_init(&attributes);
-    pthread_attr_setstack(&attributes, program_stack().data(), program_stack().size());
+    pthread_attr_setstack(&attributes, the_console().memory.stack.data(), the_console().memory.stack.size());
     pthread_create(&program_, &attributes, run_program, &start_);
     pthread_attr_destroy(&attributes);
   }
@@ -157,11 +168,11 @@ class Host {
       const auto state = console.handover.wait_for_program(blank_time);
       if (state == ProgramState::ended || state == ProgramState::crashed) {
         ending_.kind = state == ProgramState::ended ? Ending::Kind::ended : Ending::Kind::crashed;
-        stay_open();
+        describe_end();
+        if (line_) serve_end();
         return;
       }
       if (state == ProgramState::waiting) {
-        waited = Clock::now();
         ever_waited_ = true;
       } else if (Clock::now() - waited < patience) {
         continue;
@@ -170,7 +181,8 @@ class Host {
         const std::lock_guard lock(console.handover.console);
         blank();
       }
-      if (settings_.is_headless()) progress.step();
+      if (state == ProgramState::waiting) waited = Clock::now();  // now: a window may have kept it waiting
+      if (settings_.frames) progress.step();
       if (is_over()) break;
       if (state == ProgramState::waiting) {
         console.handover.release();
@@ -191,8 +203,8 @@ class Host {
     const auto frame = ++console.blanks;
     console.lint.frame = frame;
     for (std::size_t i = 0; i < console.pads.size(); ++i)
-      console.pads[i] = at_frame(settings_.pads[i], frame);
-    if (window_) serve_window();
+      console.pads[i] = line_ ? orders_.pads[done_][i] : at_frame(settings_.pads[i], frame);
+    if (line_) serve(frame);
     if (pad_log_.empty() || std::prev(pad_log_.end())->second != console.pads[0])
       pad_log_[frame] = console.pads[0];
   }
@@ -201,71 +213,101 @@ class Host {
     return closed_ || (settings_.frames && the_console().blanks >= *settings_.frames);
   }
 
-  // One blank's worth of window; while paused, until it is no longer.
-  void serve_window() {
-    bool steps = false;
-    do {
-      const auto events = window_->poll();
-      closed_ = closed_ || events.closed;
-      if (events.pause) paused_ = !paused_;
-      steps = events.step;
-      if (events.zbuffer) toggle_zbuffer();
-      if (settings_.pads[0].empty()) the_console().pads[0] = events.pad;
-      window_->show(screen_.picture());
-      keep_pace();
-    } while (paused_ && !steps && !closed_);
+  /// So many frames are not told before progress is.
+  static constexpr std::uint32_t told_every = 64;
+
+  // The window's next orders; it may be long until they come.
+  void wait_for_orders() {
+    auto orders = line_->receive_orders();
+    closed_ = !orders;
+    if (closed_) return;
+    orders_ = std::move(*orders);
+    done_ = 0;
+    set_silent(orders_.is_silent);
+    if (orders_.frames <= orders_.kept) state_ = the_console().gpu.save();
   }
 
-  void toggle_zbuffer() {
-    using scene::Visibility;
-    knobs_now_.visibility = knobs_now_.visibility == Visibility::ot ? Visibility::zbuffer : Visibility::ot;
-    screen_.choose_targets(knobs_now_);
-    window_->set_title(name_ + (knobs_now_.visibility == Visibility::ot ? "" : " - z-buffer"));
-  }
-
-  void keep_pace() {
-    constexpr std::chrono::microseconds field{16683};  // 59.94 Hz
-    next_ += field;
-    const auto now = Clock::now();
-    if (next_ > now) {
-      std::this_thread::sleep_until(next_);
+  void set_silent(bool is_silent) {
+    if (is_silent == is_silent_) return;
+    is_silent_ = is_silent;
+    std::fflush(stdout);
+    if (is_silent) {
+      output_ = dup(STDOUT_FILENO);
+      const int nowhere = open("/dev/null", O_WRONLY);
+      dup2(nowhere, STDOUT_FILENO);
+      close(nowhere);
     } else {
-      next_ = now;
+      dup2(output_, STDOUT_FILENO);
+      close(output_);
     }
   }
 
-  // The program is over; its window is not.
-  void stay_open() {
-    if (!window_) return;
-    if (ending_.kind == Ending::Kind::crashed) {
-      const auto crash = describe_crash();
-      window_->set_title(name_ + " - " + crash.signal + " at " + crash.place);
+  // A frame has ended: told, if it is one of those wanted.
+  void serve(std::uint32_t frame) {
+    auto& console = the_console();
+    ++done_;
+    const auto left = orders_.frames - done_;
+    if (left < orders_.kept) {
+      tell(frame, false);
     } else {
-      window_->set_title(name_ + " - ended");
+      console.feed.take();
+      if (done_ % told_every == 0) line_->send_progress(frame);
     }
-    while (!window_->poll().closed) {
-      window_->show(screen_.picture());
-      keep_pace();
+    if (left == 0) return wait_for_orders();
+    if (left <= orders_.kept) state_ = console.gpu.save();
+  }
+
+  void tell(std::uint32_t frame, bool is_last) {
+    auto& console = the_console();
+    ending_.never_waited = !ever_waited_;
+    line_->send({frame, is_last, ending_, console.depth.shares(), console.lint.findings(), std::move(state_),
+                 console.feed.take()});
+  }
+
+  // The program is over; the window that shows it is not.
+  void serve_end() {
+    auto& console = the_console();
+    console.feed.next_field();
+    if (state_.empty()) state_ = console.gpu.save();
+    tell(console.blanks + 1, true);
+    while (line_->receive_orders()) {
     }
+  }
+
+  void describe_end() {
+    if (ending_.kind != Ending::Kind::crashed) return;
+    const auto crash = describe_crash();
+    ending_.signal = crash.signal;
+    ending_.place = crash.place;
   }
 
   int finish() {
     auto& console = the_console();
     ending_.never_waited = !ever_waited_ && ending_.kind == Ending::Kind::reached;
-    if (ending_.kind == Ending::Kind::crashed) {
-      const auto crash = describe_crash();
-      ending_.signal = crash.signal;
-      ending_.place = crash.place;
-    }
     if (ending_.kind != Ending::Kind::reached) {  // what was drawn since the last blank
       console.feed.next_field();
       screen_.end_frame();
     }
+    const auto judged = judge_without_depth();
     std::fflush(stdout);
     if (settings_.json != "-") std::fputs(to_text(console, ending_, name_).c_str(), stderr);
     if (auto written = write_files(); !written) return complain(written.error());
+    if (!judged) return complain(judged.error());
     std::fflush(nullptr);
     return ending_.kind == Ending::Kind::crashed ? static_cast<int>(base::Exit::failed) : 0;
+  }
+
+  // One line that counts what a z-buffer drew in list order, or an error where that is refused.
+  [[nodiscard]] base::Result<void> judge_without_depth() const {
+    const auto count = the_console().feed.polygons_without_depth();
+    if (count == 0 || settings_.knobs.visibility != scene::Visibility::zbuffer) return {};
+    const auto text = std::to_string(count) + " polygons without depth";
+    if (settings_.knobs.without_depth == scene::WithoutDepth::error)
+      return base::fail(text + "; --without-depth list-order draws them", base::Exit::failed);
+    const bool by_bucket = settings_.knobs.without_depth == scene::WithoutDepth::bucket;
+    base::warn(name_, text + (by_bucket ? ": drawn with the depth of their bucket where they have one"
+                                        : ": drawn in list order"));
+    return {};
   }
 
   base::Result<void> write_files() {
@@ -311,20 +353,44 @@ class Host {
   const Settings& settings_;
   std::string name_;
   Screen screen_;
-  std::unique_ptr<Window> window_;
-  scene::Knobs knobs_now_ = settings_.knobs;
+  std::unique_ptr<Line> line_;  // to the window, if one shows this
+  Orders orders_;
+  std::uint32_t done_ = 0;        // frames of the orders
+  std::vector<std::byte> state_;  // of the GPU before the frame at hand, if it will be told
+  bool is_silent_ = false;
+  int output_ = -1;  // standard output, while it is silent
   Start start_{};
   pthread_t program_{};
   PadScript pad_log_;
   Ending ending_;
-  Clock::time_point next_ = Clock::now();
-  bool ever_waited_ = false, paused_ = false, closed_ = false;
+  bool ever_waited_ = false, closed_ = false;
 };
 
 }  // namespace
 
-int run(const Settings& settings, int (*program_main)(int, char**), const char* name) {
+int run(const Settings& settings, int (*program_main)(int, char**), const char* name,
+        const ProgramMemory& memory) {
+  the_console().memory = memory;
   return Host(settings, name).run(program_main);
+}
+
+void run_executable(int argc, char** argv, int (*program_main)(int, char**), const ProgramMemory& memory) {
+  const auto name = std::filesystem::path(argv[0]).filename().string();
+  int status = static_cast<int>(base::Exit::failed);
+  try {
+    const auto settings = parse_settings(argc, argv);
+    if (settings) {
+      status = run(*settings, program_main, name.c_str(), memory);
+    } else {
+      std::fprintf(stderr, "%s: %s\n", name.c_str(), settings.error().text.c_str());
+      status = static_cast<int>(settings.error().exit);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), error.what());
+  }
+  // The program's thread stands still inside its frames: nothing of it may be destroyed.
+  std::fflush(nullptr);
+  std::_Exit(status);
 }
 
 }  // namespace sdk

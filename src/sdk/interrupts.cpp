@@ -5,6 +5,7 @@
 #include <cstdlib>
 
 #include "sdk/console.h"
+#include "sdk/include/hwregs_c.h"
 #include "sdk/include/psxapi.h"
 #include "sdk/include/psxetc.h"
 #include "sdk/include/psxgpu.h"
@@ -40,7 +41,31 @@ void* as_pointer(Callback callback) { return reinterpret_cast<void*>(callback); 
 constexpr std::array<std::uint32_t, 4> ticks_per_blank{107'520, 263, 70'650, 1};
 std::array<std::uint32_t, 4> counter_zero{};  // blanks when it was set to zero
 
+std::array<otter_timer_registers, 3> timers{};
+
+/// Ticks of a timer between two vertical blanks, with the clock that its control register chooses.
+std::uint32_t ticks_of(std::size_t timer) {
+  constexpr std::uint32_t system_clock = ticks_per_blank[2] * 8;
+  const unsigned source = timers[timer].ctrl >> 8 & 3;
+  const bool has_own_clock = timer == 2 ? source >= 2 : (source & 1) != 0;
+  return has_own_clock ? ticks_per_blank[timer] : system_clock;
+}
+
 }  // namespace
+
+void run_timers() {
+  constexpr unsigned at_reload = 1u << 3, interrupts = 3u << 4;
+  for (std::size_t n = 0; n < timers.size(); ++n) {
+    auto& timer = timers[n];
+    const std::uint32_t period =
+        (timer.ctrl & at_reload) != 0 && timer.reload != 0 ? std::uint32_t{timer.reload} + 1 : 0x10000;
+    const std::uint32_t total = timer.value + ticks_of(n);
+    timer.value = static_cast<std::uint16_t>(total % period);
+    const auto callback = interrupt_callbacks[IRQ_TIMER0 + n];
+    if (callback == nullptr || (timer.ctrl & interrupts) == 0) continue;
+    for (std::uint32_t fired = 0; fired < total / period; ++fired) callback();
+  }
+}
 }  // namespace sdk
 
 using sdk::the_console;
@@ -150,6 +175,10 @@ int ResetRCnt(int spec) {
   if (StartRCnt(spec) == 0) return 0;
   sdk::counter_zero[static_cast<unsigned>(spec) & 0xff] = the_console().blanks;
   return 1;
+}
+
+otter_timer_registers* otter_timer(unsigned number) {
+  return &sdk::timers[number < sdk::timers.size() ? number : sdk::timers.size() - 1];
 }
 
 void FlushCache(void) {}

@@ -28,29 +28,44 @@ bool can_link(const void* p, const char* what, CallSite site) {
   return false;
 }
 
+/// A tag without a payload may be the entry of a table, on which the packets to come hang.
+void hang(std::uint32_t tag, Feed::Hook& hook) {
+  if (hook.length != 0 && tag >= hook.address && (tag - hook.address) / 4 < hook.length) {
+    hook.bucket = (tag - hook.address) / 4;
+    return;
+  }
+  if (const auto entry = the_console().lint.entry(tag)) hook = {entry->bucket, entry->table, entry->length};
+}
+
 void draw_list(const std::uint32_t* list, CallSite site) {
   auto& console = the_console();
   if (!can_link(list, "the list", site)) return;
-  console.bytes_copied += copy_memory(console.ram);
+  console.bytes_copied += copy_memory(console.memory, console.ram);
   console.last_list = address_of(list);
   console.lint.draw(console.last_list, site);
   ++console.lists;
   struct Node {
     std::uint32_t address;
     std::span<const std::uint32_t> payload;
+    Feed::Hook hook;
   };
   std::vector<Node> later;
+  Feed::Hook hook;
   const auto walked = ot::walk(console.ram, console.last_list,
                                [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
-                                 if (payload.empty()) return;
+                                 if (payload.empty()) return hang(tag, hook);
                                  if (console.reversed) {
-                                   later.push_back({tag + 4, payload});
+                                   later.push_back({tag + 4, payload, hook});
                                  } else {
+                                   console.feed.hang(hook);
                                    console.feed.packet(payload, tag + 4);
                                  }
                                });
-  std::for_each(later.rbegin(), later.rend(),
-                [&](const Node& node) { console.feed.packet(node.payload, node.address); });
+  std::for_each(later.rbegin(), later.rend(), [&](const Node& node) {
+    console.feed.hang(node.hook);
+    console.feed.packet(node.payload, node.address);
+  });
+  console.feed.hang({});
   console.nodes += walked.nodes;
   console.words += walked.words;
   if (!walked) console.lint.note("list", site, "nothing is drawn: " + walked.message());

@@ -2,7 +2,7 @@
 // The program's memory as the console's RAM. The program is linked without position independence at 10000h,
 // so that its static data, its stack (memory.cpp keeps it in static storage) and its heap (heap.cpp) have
 // addresses below 8 MiB: a 24-bit link holds them, bit 23 stays the end mark, and every address means the
-// same in MainRam.
+// same in MainRam. The runtime is a shared library and lies elsewhere.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,14 +26,19 @@ inline std::uint32_t address_of(const void* p) {
   return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(p));
 }
 
-/// Error (exit 2): this program's static data does not lie in memory_begin..memory_end; names where it ends.
-base::Result<void> check_layout();
+/// What a program's own part of the runtime tells about it.
+struct ProgramMemory {
+  const std::byte* begin = nullptr;  ///< static data, the program's stack and heap among it
+  const std::byte* end = nullptr;
+  std::span<std::byte> stack;  ///< inside of it, where main() runs, on a page of its own
+};
+/// Of this executable. Linked into every program.
+ProgramMemory program_memory();
 
-/// Copies static data, the program's stack and heap among it, to the same addresses of `ram` (8 MiB).
-/// Needs check_layout(). Returns the bytes copied.
-std::size_t copy_memory(ot::MainRam& ram);
+/// Error (exit 2): the static data does not lie in memory_begin..memory_end; names where it ends.
+base::Result<void> check_layout(const ProgramMemory& memory);
 
-/// Where the program's main() runs: inside static data, stack_bytes long.
-std::span<std::byte> program_stack();
+/// Copies static data to the same addresses of `ram` (8 MiB). Needs check_layout(). Returns the bytes copied.
+std::size_t copy_memory(const ProgramMemory& memory, ot::MainRam& ram);
 
 }  // namespace sdk

@@ -6,6 +6,7 @@
 # or, for an unmodified project of PSn00bSDK, the same functions under its names:
 #
 #   cmake -S PROJECT -B build -DCMAKE_PROJECT_INCLUDE=/where/otter/is/otter-sdk.cmake
+#   cmake -S PROJECT -B build -DCMAKE_TOOLCHAIN_FILE=/where/otter/is/otter-sdk-toolchain.cmake      # the same
 #
 # A program is linked at 10000h without position independence, so that 24-bit links hold the addresses of its static
 # data; its objects get a heap in static storage and the console's random numbers in place of the system's.
@@ -14,7 +15,7 @@ include_guard(GLOBAL)
 enable_language(C)
 enable_language(CXX)
 
-if(NOT TARGET otter::sdk)
+if(NOT TARGET otter::sdk-program)
   find_package(otter REQUIRED COMPONENTS sdk HINTS ${CMAKE_CURRENT_LIST_DIR})
 endif()
 
@@ -24,7 +25,7 @@ function(otter_sdk_program name)
   target_compile_options(${name} PRIVATE -g -fno-pie -fwrapv -fno-strict-aliasing
     $<$<COMPILE_LANGUAGE:C>:-std=gnu11>)
   target_link_options(${name} PRIVATE -no-pie -Wl,-Ttext-segment=0x10000 -Wl,--wrap=main)
-  target_link_libraries(${name} PRIVATE otter::sdk)
+  target_link_libraries(${name} PRIVATE otter::sdk-program)
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE OFF LINKER_LANGUAGE CXX)
   foreach(language IN ITEMS C CXX)  # `;` only before a launcher there is: an empty one would be run as a command
     set(launcher ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/otter-sdk-compile ${CMAKE_${language}_COMPILER_LAUNCHER})

@@ -32,10 +32,16 @@ std::optional<std::size_t> ProgramLint::table_of(std::uint32_t entry) const {
   return last_table_ = static_cast<std::size_t>(at - tables_.begin());
 }
 
-std::optional<std::uint32_t> ProgramLint::bucket(std::uint32_t entry) const {
-  const auto table = table_of(entry);
-  if (!table) return std::nullopt;
-  return (entry - tables_[*table].address) / 4;
+std::optional<ProgramLint::Entry> ProgramLint::entry(std::uint32_t address) const {
+  const auto at = table_of(address);
+  if (!at) return std::nullopt;
+  const auto& table = tables_[*at];
+  return Entry{table.address, table.length, (address - table.address) / 4};
+}
+
+CallSite ProgramLint::site_of(std::uint32_t packet) const {
+  const auto at = sites_.find(packet);
+  return at == sites_.end() ? nullptr : at->second;
 }
 
 void ProgramLint::clear_table(std::uint32_t address, std::uint32_t length, CallSite site) {
@@ -45,11 +51,11 @@ void ProgramLint::clear_table(std::uint32_t address, std::uint32_t length, CallS
     return t.address < end && address < t.end() && (t.address != address || t.length != length);
   };
   for (auto& table : tables_) {
-    if (overlaps(table)) table = {table.address, 0, table.clears + 1};
+    if (overlaps(table)) table = {table.address, 0, table.clears + 1, 0, 0, false, {}};
   }
   auto at = std::find_if(tables_.begin(), tables_.end(),
                          [&](const Table& t) { return t.address == address && t.length == length; });
-  if (at == tables_.end()) at = tables_.insert(at, Table{.address = address, .length = length});
+  if (at == tables_.end()) at = tables_.insert(at, Table{address, length, 0, 0, 0, false, {}});
   if (at->is_being_drawn) {
     note("written-while-drawn", site,
          "the table at " + hex(address) + " is cleared after DrawOTag, with no DrawSync between");
@@ -59,7 +65,7 @@ void ProgramLint::clear_table(std::uint32_t address, std::uint32_t length, CallS
          "the table at " + hex(address) + " is cleared with " + std::to_string(at->linked - at->drawn) +
              " packets that were not drawn");
   }
-  *at = {address, length, at->clears + 1};
+  *at = {address, length, at->clears + 1, 0, 0, false, {}};
 }
 
 void ProgramLint::check_range(std::uint32_t entry, CallSite site) {
@@ -111,8 +117,14 @@ void ProgramLint::link(std::uint32_t entry, std::uint32_t first, std::uint32_t l
     note("flag-ignored", site, "a vertex overflowed (FLAG bit 31) and nobody looked");
     flag_pending_ = false;
   }
-  check_overrun(last, last + bytes, site);
   const auto table = table_of(entry);
+  // A table that is put into another one as it is.
+  if (const auto nested = table_of(first); nested && nested == table_of(last) && nested != table) {
+    if (table) tables_[*table].nested.push_back(*nested);
+    return;
+  }
+  sites_[first] = site;
+  check_overrun(last, last + bytes, site);
   if (!table) return check_range(entry, site);
   check_place(first, *table, site);
   auto& t = tables_[*table];
@@ -134,8 +146,16 @@ void ProgramLint::draw(std::uint32_t head, CallSite site) {
          "the table at " + hex(t.address) + " is drawn with " + std::to_string(t.drawn) +
              " packets that were drawn before");
   }
+  mark_drawn(*table, 0);
+}
+
+void ProgramLint::mark_drawn(std::size_t table, int depth) {
+  constexpr int deepest = 16;  // tables in tables: a loop of them ends, too
+  auto& t = tables_[table];
   t.drawn = t.linked;
   t.is_being_drawn = true;
+  if (depth == deepest) return;
+  for (const auto nested : t.nested) mark_drawn(nested, depth + 1);
 }
 
 void ProgramLint::sync() {

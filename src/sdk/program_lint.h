@@ -59,8 +59,14 @@ class ProgramLint {
   /// In the order in which they were first found.
   [[nodiscard]] const std::vector<Finding>& findings() const { return findings_; }
 
-  /// The bucket that `entry` is, counted in its table's entries.
-  [[nodiscard]] std::optional<std::uint32_t> bucket(std::uint32_t entry) const;
+  /// The table, cleared by ClearOTag or ClearOTagR, that holds the word at `address`, and which of its
+  /// entries that is.
+  struct Entry {
+    std::uint32_t table = 0, length = 0, bucket = 0;
+  };
+  [[nodiscard]] std::optional<Entry> entry(std::uint32_t address) const;
+  /// Where the packet was linked; nullptr: not known.
+  [[nodiscard]] CallSite site_of(std::uint32_t packet) const;
 
  private:
   struct Table {
@@ -69,6 +75,7 @@ class ProgramLint {
     std::uint32_t linked = 0;  // packets since it was cleared
     std::uint32_t drawn = 0;   // of those
     bool is_being_drawn = false;
+    std::vector<std::size_t> nested{};  // tables that hang in it
     [[nodiscard]] std::uint32_t end() const { return address + 4 * length; }
   };
   struct Place {  // of a packet
@@ -79,11 +86,13 @@ class ProgramLint {
   [[nodiscard]] std::optional<std::size_t> table_of(std::uint32_t entry) const;
   void check_range(std::uint32_t entry, CallSite site);
   void check_overrun(std::uint32_t begin, std::uint32_t end, CallSite site);
+  void mark_drawn(std::size_t table, int depth);
   void check_place(std::uint32_t packet, std::size_t table, CallSite site);
 
   std::vector<Table> tables_;
   mutable std::size_t last_table_ = 0;
   std::unordered_map<std::uint32_t, Place> places_;
+  std::unordered_map<std::uint32_t, CallSite> sites_;    // of packets
   std::map<std::uint32_t, std::uint32_t> environments_;  // begin, end
   bool flag_pending_ = false;
   CallSite draw_site_ = nullptr;

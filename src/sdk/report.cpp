@@ -26,13 +26,6 @@ const char* word(Ending::Kind kind) {
   return "";
 }
 
-std::string percent(std::uint64_t part, std::uint64_t whole) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%",
-                whole == 0 ? 0.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole));
-  return text;
-}
-
 }  // namespace
 
 std::string to_text(Console& console, const Ending& ending, const std::string& program) {
@@ -40,12 +33,7 @@ std::string to_text(Console& console, const Ending& ending, const std::string& p
   out << program << ": " << console.blanks << " frames, " << console.lists << " lists, " << console.nodes
       << " tags, " << console.words << " words\n";
   if (console.depth.is_on()) {
-    const auto& shares = console.depth.shares();
-    const auto all = shares.polygons();
-    out << program << ": depth of " << all << " polygons: " << percent(shares.by_address, all)
-        << " by address, " << percent(shares.by_value, all) << " by value, " << percent(shares.by_packet, all)
-        << " by packet, " << percent(shares.none, all) << " none (" << shares.partly
-        << " of them partly known)\n";
+    out << program << ": " << to_text(console.depth.shares()) << "\n";
   }
   if (ending.never_waited) out << program << ": never calls VSync: the blanks come from the clock\n";
   if (ending.kind == Ending::Kind::ended) out << program << ": ended at frame " << console.blanks << "\n";

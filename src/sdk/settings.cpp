@@ -1,11 +1,13 @@
 #include "sdk/settings.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>
 
 #include "app/commands/arguments.h"
+#include "app/commands/without_depth.h"
 
 namespace sdk {
 namespace {
@@ -25,11 +27,28 @@ void add_files(CLI::App& line, Settings& s) {
   file("--pad-log", s.pad_log, "write what the controllers did, for --pad");
 }
 
+void add_window(app::Arguments arguments, Settings::Window& window) {
+  arguments.number("--scale", "1..16", window.scale, 1, 16,
+                   "window: screen pixels for each pixel at first [3]");
+  arguments.number("--frame", "N", window.frame, std::uint32_t{1}, std::uint32_t{1'000'000'000},
+                   "window: begin with frame N [1]");
+  arguments.flag("--paused", window.is_paused, "window: begin at rest");
+  arguments.flag("--split", window.is_split, "window: begin with ordering table and z-buffer side by side");
+  arguments.words("--panel", "NAME,...", window.panels,
+                  "window: begin with these panels: knobs, inspect, cost, table, vram");
+  arguments.text("--settings", "PATH|none", window.settings,
+                 "window: what is remembered between runs [~/.config/otter/window.json]");
+  arguments.number("--quit-after", "N", window.quit_after, 1, 1'000'000'000,
+                   "window: quit when it was drawn N times");
+  arguments.text("--screenshot", "FILE", window.screenshot,
+                 "with --quit-after: write the window as it was last");
+}
+
 }  // namespace
 
 bool Settings::needs_depth() const {
   const scene::Knobs usual;
-  return annotate || !json.empty() || knobs.visibility == scene::Visibility::zbuffer ||
+  return annotate || served || !json.empty() || knobs.visibility == scene::Visibility::zbuffer ||
          knobs.position != usual.position || knobs.texture != usual.texture;
 }
 
@@ -56,13 +75,18 @@ base::Result<Settings> parse_settings(int argc, const char* const* argv) {
       ->type_name("SCRIPT");
   line.add_option("--pad2", pads[1], "the same of the second controller, which is there only with it")
       ->type_name("SCRIPT");
-  std::string shown = "display";
-  line.add_option("--shown", shown, "the display area, or the buffer that was drawn into last [display]")
+  std::string shown;
+  line.add_option("--shown", shown,
+                  "the display area, or the buffer drawn into last [a window: drawn, a picture: display]")
       ->type_name("drawn|display")
       ->check(CLI::IsMember({"drawn", "display"}).description(""));
-  app::Arguments(line).knobs(s.knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",
-                                       "near", "far", "position", "texture", "filter", "colour", "antialias",
-                                       "aa-filter", "aa-space", "resolution"});
+  add_window(app::Arguments(line), s.window);
+  line.add_option("--serve", s.served, "")->group("");
+  app::Arguments(line).knobs(
+      s.knobs,
+      {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far", "position",
+       "texture", "filter", "colour", "antialias", "aa-filter", "aa-space", "resolution", "without-depth"},
+      &s.window.named_knobs);
   try {
     line.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -70,13 +94,17 @@ base::Result<Settings> parse_settings(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return base::fail(app::one_line(error) + " (see ./" + name + " --help)");
   }
-  s.shown = shown == "drawn" ? Shown::drawn : Shown::display;
+  s.arguments.assign(argv + 1, argv + argc);
+  if (!shown.empty()) s.shown = shown == "drawn" ? app::Shown::drawn : app::Shown::display;
   for (std::size_t i = 0; i < pads.size(); ++i) {
     if (pads[i].empty()) continue;
     auto script = parse_pad_script(pads[i]);
     if (!script) return tl::make_unexpected(script.error());
     s.pads[i] = std::move(*script);
   }
+  const auto& named = s.window.named_knobs;
+  if (std::find(named.begin(), named.end(), "without-depth") == named.end())
+    s.knobs.without_depth = app::foreign_without_depth;
   const auto visibility = s.knobs.visibility;
   if (visibility != scene::Visibility::ot && visibility != scene::Visibility::zbuffer) {
     return base::fail(

@@ -4,16 +4,14 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "app/tape.h"
+#include "app/window/window_state.h"
 #include "scene/knobs.h"
 #include "sdk/pads.h"
 
 namespace sdk {
-
-enum class Shown : std::uint8_t {
-  display,  ///< what the display area shows: of a double-buffered program, the frame before
-  drawn,    ///< the buffer that was being drawn
-};
 
 struct Settings {
   std::optional<std::uint32_t>
@@ -21,11 +19,24 @@ struct Settings {
   std::string output, vram, record, ram, json, pad_log;  ///< files to write; empty: none
   bool annotate = false;                                 ///< the recording carries depths
   bool reversed = false;                                 ///< lists are sent near to far
-  Shown shown = Shown::display;
+  /// Of a program with two buffers the display shows the frame before. Without a word a picture is of the
+  /// display, and a window of what is drawn.
+  app::Shown shown = app::Shown::either;
+  struct Window {  ///< how it opens
+    int scale = 3;
+    std::uint32_t frame = 1;
+    bool is_paused = false, is_split = false;
+    std::vector<std::string> panels, named_knobs;
+    std::string settings;    ///< where things are remembered; "none": nowhere; empty: the usual place
+    std::string screenshot;  ///< with `quit_after`: the window's last frame
+    std::optional<int> quit_after;
+  } window;
   std::array<PadScript, 2> pads;
+  std::optional<int> served;  ///< this process runs the program for a window, which listens at the socket
+  std::vector<std::string> arguments;  ///< as given, without the program's name
   scene::Knobs knobs;
 
-  [[nodiscard]] bool is_headless() const { return frames.has_value(); }
+  [[nodiscard]] bool is_headless() const { return frames.has_value() || served.has_value(); }
   /// Whether anything needs the depth of vertices.
   [[nodiscard]] bool needs_depth() const;
 };

@@ -6,6 +6,8 @@
 #include <set>
 #include <string>
 
+#include "app/window/pad_keys.h"
+
 using app::KeyAction;
 using app::WindowState;
 using scene::Visibility;
@@ -256,5 +258,45 @@ TEST_SUITE("window") {
     press(state, "V");
     press(state, "D");
     CHECK(state.compares());
+  }
+
+  TEST_CASE("no key of the console's controller is a key of the window but for camera and differences") {
+    for (const auto& row : app::pad_keys) {
+      CAPTURE(row.key);
+      CHECK(app::is_pad_key(row.key));
+      if (row.key != "D") CHECK_FALSE(app::asked_by_key(row.key));
+    }
+    CHECK_FALSE(app::is_pad_key("Q"));
+  }
+
+  TEST_CASE("a program that runs goes on by one frame a call, however long that took") {
+    WindowState state;
+    state.frame = 7;
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_growing = true};
+    app::let_pass(state, 1);
+    CHECK(state.frame == 8);
+    app::let_pass(state, 1);
+    CHECK(state.frame == 8);  // which is not there yet
+  }
+
+  TEST_CASE("N makes a frame of a program that there was not, and none of one that has ended") {
+    WindowState state;
+    state.frame = 7;
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_growing = true};
+    press(state, "N");
+    CHECK(state.frame == 8);
+    state.frame = 7;
+    state.recorded.has_ended = true;
+    press(state, "N");
+    CHECK(state.frame == 7);
+  }
+
+  TEST_CASE("a program that has ended rests at its last frame, and is not begun again") {
+    WindowState state;
+    state.frame = 6;
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_growing = true, .has_ended = true};
+    app::let_pass(state, 1);
+    CHECK(state.frame == 7);
+    CHECK(state.paused);
   }
 }

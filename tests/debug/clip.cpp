@@ -11,6 +11,7 @@
 #include "debug/edits.h"
 #include "debug/frame_view.h"
 #include "debug/timeline.h"
+#include "dump/bucket_note.h"
 #include "ot/ordering_table.h"
 #include "streams.h"
 
@@ -263,5 +264,54 @@ TEST_SUITE("debug") {
     CHECK(view.groups()[0].count == 4);
     CHECK(view.groups()[0].text == "2 states, 2 shapes");
     CHECK(view.groups()[1].text == "1 state, 1 fill, copy or upload, 1 shape");
+  }
+
+  TEST_CASE("what a program sent becomes commands with the bucket, address and origin of their packets") {
+    std::vector<debug::Sent> sent(3);
+    sent[0].is_control = true;
+    sent[0].words = {0x03000000};
+    sent[1].bucket = 5;
+    sent[1].address = 0x1000;
+    sent[1].origin = "main.c:3/1";
+    sent[1].words = {0x60ffffff, xy(0, 0), xy(4, 4), 0x60ff0000, xy(8, 0), xy(4, 4), 0x600000ff};
+    sent[2].words = {xy(16, 0), xy(4, 4)};
+    const auto items = debug::items_of(sent);
+    REQUIRE(items.size() == 4);
+    CHECK(items[0].is_control);
+    for (const std::size_t i : {1U, 2U, 3U}) {
+      CAPTURE(i);
+      CHECK(items[i].number == i + 1);
+      CHECK(items[i].bucket == 5);
+      CHECK(items[i].address == 0x1000);
+      CHECK(items[i].origin == "main.c:3/1");
+      CHECK(items[i].words.size() == 3);
+    }
+  }
+
+  TEST_CASE("comments of a recording name the buckets of its commands") {
+    dump::Dump dump;
+    dump.add(PacketType::port0, tests::everywhere);
+    dump.add_text(PacketType::comment, dump::to_text(dump::BucketNote{7, 16}));
+    dump.add(PacketType::port0, Words{0x600000ff, xy(0, 0), xy(4, 4)});
+    dump.add_text(PacketType::comment, "a comment of somebody else");
+    dump.add(PacketType::port0, Words{0x6000ff00, xy(8, 0), xy(4, 4)});
+    dump.add_text(PacketType::comment, dump::to_text(dump::BucketNote{}));
+    dump.add(PacketType::port0, Words{0x60ff0000, xy(16, 0), xy(4, 4)});
+    dump.add(PacketType::vsync);
+    dump.vsyncs = 1;
+    Timeline timeline{Recording(std::move(dump))};
+    CHECK(timeline.recording().buckets() == 16);
+    const auto clip = debug::clip_of(timeline, 1);
+    CHECK(clip.buckets == 16);
+    std::vector<std::uint32_t> buckets;
+    for (const auto& item : clip.items) {
+      if (item.is_drawing()) buckets.push_back(item.bucket);
+    }
+    CHECK(buckets == std::vector<std::uint32_t>{7, 7, gpu::no_bucket});
+    gpu::Trace trace;
+    timeline.watch(1, trace);
+    REQUIRE(trace.draws.size() == 3);
+    CHECK(trace.draws[0].bucket == 7);
+    CHECK(trace.draws[2].bucket == gpu::no_bucket);
   }
 }

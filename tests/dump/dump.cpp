@@ -9,6 +9,7 @@
 #include <random>
 #include <string>
 
+#include "dump/bucket_note.h"
 #include "dump/compression.h"
 #include "ot/command_stream.h"
 
@@ -373,5 +374,22 @@ TEST_SUITE("gpu") {
         dump::unpack(damaged);
       }
     }
+  }
+
+  TEST_CASE("a note about a bucket comes back from its packet, and other comments are none") {
+    dump::Dump dump;
+    for (const auto& note : {dump::BucketNote{0, 1}, dump::BucketNote{255, 256}, dump::BucketNote{}}) {
+      dump.add_text(PacketType::comment, dump::to_text(note));
+      CHECK(dump::bucket_note(dump, dump.packets.back()) == note);
+    }
+    for (const char* text :
+         {"", "otter.bucket", "otter.bucket 4", "otter.bucket 4 of 4", "otter.bucket x of 4",
+          "otter.bucket 1 of 0", "otter.bucket 1 of 99999999999", "hello"}) {
+      CAPTURE(text);
+      dump.add_text(PacketType::comment, text);
+      CHECK_FALSE(dump::bucket_note(dump, dump.packets.back()));
+    }
+    dump.add_text(PacketType::game_id, "otter.bucket 1 of 4");
+    CHECK_FALSE(dump::bucket_note(dump, dump.packets.back()));
   }
 }

@@ -3,6 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <span>
+
+#include "gte/batch.h"
+#include "tests/random.h"
 
 TEST_SUITE("sdk") {
   namespace {
@@ -153,5 +157,46 @@ TEST_SUITE("sdk") {
     const std::array<std::uint32_t, 4> words{flat_triangle};
     CHECK_FALSE(notes.find(words, packet));
     CHECK(notes.shares() == sdk::DepthShares{});
+  }
+
+  TEST_CASE("the quick way to an exact position makes what the batch door does, or leaves it to that") {
+    tests::Random random(14);
+    const auto some = [&random](std::int32_t limit) {
+      switch (random.below(4)) {
+        case 0:
+          return random.between(-limit - 1, limit);
+        case 1:
+          return random.between(-8, 8);
+        case 2:
+          return limit;
+        default:
+          return -limit - 1;
+      }
+    };
+    int quick = 0;
+    for (int n = 0; n < 20000; ++n) {
+      gte::Registers r;
+      for (auto& row : r.rt) {
+        for (auto& entry : row) entry.raw = static_cast<std::int16_t>(some(0x7fff));
+      }
+      for (auto& t : r.tr) t = some(random.below(2) == 0 ? 0x7fffffff - 1 : 0x7fffff);
+      r.ofx.raw = some(0x7fffffff - 1);
+      r.ofy.raw = some(0x7fffffff - 1);
+      r.h = static_cast<std::uint16_t>(random.below(0x10000));
+      const gte::Vertex v{static_cast<std::int16_t>(some(0x7fff)), static_cast<std::int16_t>(some(0x7fff)),
+                          static_cast<std::int16_t>(some(0x7fff)), 0};
+      const gte::Command command{random.below(2) << 19 | random.below(2) << 10 | 1};
+      const auto exact = sdk::exact_position(r, v, command);
+      if (!exact) continue;
+      ++quick;
+      sdk::ExactPosition expected;
+      gte::ProjectOut out;
+      out.z_20_12 = &expected.z;
+      out.fraction_x = &expected.fx;
+      out.fraction_y = &expected.fy;
+      gte::project(r, std::span(&v, 1), out, command);
+      REQUIRE(*exact == expected);
+    }
+    CHECK(quick > 3000);
   }
 }

@@ -168,7 +168,25 @@ TEST_SUITE("sdk") {
 
   TEST_CASE("the bucket of an entry is counted from its table's begin") {
     Linted lint;
-    CHECK(lint.bucket(table + 20) == 5);
-    CHECK_FALSE(lint.bucket(table + 4 * length));
+    const auto entry = lint.entry(table + 20);
+    REQUIRE(entry);
+    CHECK(entry->table == table);
+    CHECK(entry->length == length);
+    CHECK(entry->bucket == 5);
+    CHECK_FALSE(lint.entry(table + 4 * length));
+  }
+
+  TEST_CASE("a table that is put into another one is drawn with it") {
+    constexpr std::uint32_t nested = 0x24000;
+    Linted lint;
+    for (int frame = 0; frame < 3; ++frame) {
+      lint.clear_table(nested, 4, here);
+      lint.put(nested + 4);
+      lint.link(table + 8, nested + 12, nested, 4, here);
+      lint.draw(table + 4 * (length - 1), here);
+      lint.sync();
+      lint.clear_table(table, length, here);
+    }
+    CHECK(kinds(lint).empty());
   }
 }

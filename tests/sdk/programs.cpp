@@ -13,8 +13,10 @@ TEST_SUITE("sdk") {
   /// Runs a program of the build's bin folder.
   struct Programs : tests::Folder {
     [[nodiscard]] tests::Outcome run(const std::string& name, const std::string& arguments) const {
-      const auto line = "cd '" + path.string() + "' && '" SDK_PROGRAMS "/" + name + "' " + arguments +
-                        " > .out 2> .err < /dev/null";
+      return shell("'" SDK_PROGRAMS "/" + name + "' " + arguments);
+    }
+    [[nodiscard]] tests::Outcome shell(const std::string& command) const {
+      const auto line = "cd '" + path.string() + "' && " + command + " > .out 2> .err < /dev/null";
       const int status = std::system(line.c_str());
       return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, tests::contents(path / ".out"),
               tests::contents(path / ".err")};
@@ -177,5 +179,42 @@ TEST_SUITE("sdk") {
     CHECK(told["depth"]["polygons"] == 0);
     CHECK(told["tags"] > 0);
     CHECK(told["end"] == "ended");
+  }
+
+  TEST_CASE_FIXTURE(Programs, "a recording names the buckets of the program's table, which inspect tells") {
+    REQUIRE(run("sdk_corridor", "--frames 12 --record r.psxgpu --annotate").status == 0);
+    const auto told = shell("'" OTTER_PROGRAM "' inspect r.psxgpu --frame 8 --json -");
+    REQUIRE(told.status == 0);
+    const auto report = nlohmann::json::parse(told.out);
+    for (const auto& item : report["lint"]) CHECK(item["kind"] != "buckets");
+    const auto listed = shell("'" OTTER_PROGRAM "' replay r.psxgpu --list --json -");
+    bool has_bucket = false;
+    const auto list = nlohmann::json::parse(listed.out);
+    for (const auto& one : list["commands"]) {
+      const std::string number = one["number"];
+      has_bucket = has_bucket || std::count(number.begin(), number.end(), ':') == 2;
+    }
+    CHECK(has_bucket);
+  }
+
+  TEST_CASE_FIXTURE(Programs,
+                    "polygons without depth are drawn in list order, refused, or take their bucket's") {
+    const auto plain = run("sdk_hello", "--frames 3 --visibility zbuffer -o x.png");
+    CHECK(plain.status == 0);
+    const std::string far_ones = "--frames 12 --visibility zbuffer -o x.png --without-depth ";
+    CHECK(run("sdk_cube", far_ones + "error").status == 0);  // all of its polygons have depth
+    CHECK(run("sdk_cube", far_ones + "bucket").status == 0);
+  }
+
+  TEST_CASE_FIXTURE(Programs, "play runs a program with all that follows, and nothing else") {
+    const auto outcome =
+        shell("'" OTTER_PROGRAM "' play '" SDK_PROGRAMS "/sdk_cube' --frames 4 -o frame.png");
+    CHECK(outcome.status == 0);
+    CHECK(has("frame.png"));
+    const auto refused = shell("'" OTTER_PROGRAM "' play /bin/sh -c true");
+    CHECK(refused.status == 2);
+    CHECK(tests::is_one_line(refused.err));
+    CHECK(tests::mentions(refused.err, "otter_add_program"));
+    CHECK(shell("'" OTTER_PROGRAM "' play nowhere").status == 2);
   }
 }

@@ -37,6 +37,11 @@ void Arguments::positionals(const char* name, const char* type, std::vector<std:
   sub_.add_option(name, values, help)->type_name(type);
 }
 
+void Arguments::rest(std::vector<std::string>& values) {
+  sub_.prefix_command();
+  sub_.parse_complete_callback([this_sub = &sub_, &values] { values = this_sub->remaining(); });
+}
+
 void Arguments::text(const char* names, const char* type, std::string& value, const char* help,
                      Presence presence) {
   sub_.add_option(names, value, help)->type_name(type)->required(presence == Presence::required)->take_last();
@@ -102,6 +107,11 @@ template void Arguments::number(const char*, const char*, std::optional<std::uin
 void Arguments::exclude(const char* a, const char* b) { sub_.get_option(a)->excludes(sub_.get_option(b)); }
 
 void Arguments::knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names,
+                      std::vector<std::string>* given) {
+  this->knobs(knobs, std::span(names.begin(), names.size()), given);
+}
+
+void Arguments::knobs(scene::Knobs& knobs, std::span<const std::string_view> names,
                       std::vector<std::string>* given) {
   const auto take = [&knobs, given](const std::string& name, const std::string& value) {
     set_or_throw(knobs, name, value);

@@ -36,6 +36,9 @@ class Arguments {
                   Presence presence = Presence::optional);
   void positionals(const char* name, const char* type, std::vector<std::string>& values, const char* help);
 
+  /// Everything behind what comes without a dash, as it was given.
+  void rest(std::vector<std::string>& values);
+
   void text(const char* names, const char* type, std::string& value, const char* help,
             Presence presence = Presence::optional);
   /// A text that may be left out behind its option: then it is `otherwise`.
@@ -59,6 +62,8 @@ class Arguments {
   /// message. `names`: only these knobs; empty: all. `given`: the names of those on the command line are
   /// added.
   void knobs(scene::Knobs& knobs, std::initializer_list<std::string_view> names = {},
+             std::vector<std::string>* given = nullptr);
+  void knobs(scene::Knobs& knobs, std::span<const std::string_view> names,
              std::vector<std::string>* given = nullptr);
 
   /// Text under the options of --help in place of the examples.

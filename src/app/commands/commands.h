@@ -31,6 +31,7 @@ Action add_gte_check(Arguments arguments);
 Action add_list(Arguments arguments);
 Action add_inspect(Arguments arguments);
 Action add_merge(Arguments arguments);
+Action add_play(Arguments arguments);
 Action add_record(Arguments arguments);
 Action add_regress(Arguments arguments);
 Action add_render(Arguments arguments);
@@ -68,6 +69,11 @@ inline constexpr std::array commands{
             "  otter replay frame.psxgpu --until 3:17 --vram vram.png\n"
             "  otter replay frame.psxgpu --expect vram.bin --difference red.png\n"
             "  otter replay scene.psxgpu --visibility zbuffer --depth 16 -o frame.png\n"},
+    Command{"play", "run a program of the console's SDK, in the window or without", add_play,
+            "  otter play build/corridor\n"
+            "  otter play build/corridor --frame 120 --paused --panel table\n"
+            "  otter play build/corridor --frames 120 -o frame.png --pad 30:UP+X,60:\n"
+            "  otter play build/corridor --frames 60 -o frame.png --visibility zbuffer --resolution 4\n"},
     Command{"record", "write a scene as a GPU dump", add_record,
             "  otter record crates -o crates.psxgpu\n"
             "  otter record cyclic -o cyclic.psxgpu.zst --frames 60 --annotate\n"},

@@ -154,7 +154,8 @@ class RecordingSource : public FrameSource {
         {"dropped", "", "not available: what a program leaves out before drawing is not in a recording"});
     const auto& image = timeline_->recording().image();
     if (!image) {
-      lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
+      if (!timeline_->recording().has_buckets())
+        lint.push_back({"buckets", "", "not available: a dump holds no ordering table"});
       lint.push_back({"links", "", "not available: a dump holds no list, only the words it sent"});
       return;
     }
@@ -233,7 +234,7 @@ base::Result<std::unique_ptr<FrameSource>> open(const InspectOptions& options) {
   }
   if (!options.camera.empty())
     return base::fail("--camera: " + options.source + " is a recording, whose views are drawn already");
-  warn_of_idle_knobs(options.source, options.knobs);
+  warn_of_idle_knobs(options.source, options.knobs, DrawnTo::vram);
   auto timeline = open_timeline(*source, options.knobs);
   if (!timeline) return tl::make_unexpected(timeline.error());
   if (auto read = (*timeline)->read_all(); !read) return tl::make_unexpected(read.error());

@@ -2,13 +2,17 @@
 
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
+#include "app/commands/shown.h"
+#include "app/commands/without_depth.h"
+#include "debug/clip.h"
 #include "display/scanout.h"
+#include "machine/present.h"
 
 namespace app {
 
 base::Result<std::unique_ptr<debug::Timeline>> open_at_frame(Source& source, const scene::Knobs& knobs,
-                                                             std::uint64_t frame) {
-  warn_of_idle_knobs(source.name, knobs);
+                                                             std::uint64_t frame, DrawnTo drawn_to) {
+  warn_of_idle_knobs(source.name, knobs, drawn_to);
   auto timeline = open_timeline(source, knobs);
   if (!timeline) return timeline;
   const Interrupt interrupt;
@@ -25,6 +29,55 @@ base::Result<std::unique_ptr<debug::Timeline>> open_at_frame(Source& source, con
     return base::fail("--frame " + std::to_string(frame) + ": " + source.name + " has the frames 1.." +
                       std::to_string((*timeline)->frames()));
   return timeline;
+}
+
+namespace {
+
+// What the display shows of a program with two buffers was drawn some frames ago: a canvas is sought there.
+constexpr std::uint64_t buffers = 4;
+
+base::Result<base::Picture> canvas_picture(debug::Timeline& timeline, const std::string& source,
+                                           std::uint64_t frame, const scene::Knobs& knobs, Shown shown,
+                                           const std::string& output) {
+  display::Area area;
+  for (auto number = frame; number != 0 && number + buffers > frame; --number) {
+    gpu::Gpu gpu;
+    const auto drawn = draw_clip(debug::clip_of(timeline, number), knobs, gpu, nullptr);
+    if (!drawn) return tl::make_unexpected(drawn.error());
+    if (number == frame) {
+      if (auto judged = judge_without_depth(source, knobs, {drawn->end, frame}); !judged)
+        return tl::make_unexpected(judged.error());
+      area = shown_area(gpu, shown);
+      if (area.width <= 0 || area.height <= 0) return shown_picture(gpu, output);
+    }
+    const bool is_there = drawn->canvas == machine::Corner{area.x, area.y};
+    if (is_there || number == 1 || number + buffers == frame + 1)
+      return picture_of_clip(*drawn, gpu, area, knobs);
+  }
+  return base::fail(output + ": nothing to show", base::Exit::failed);
+}
+
+}  // namespace
+
+base::Result<base::Picture> recorded_picture(debug::Timeline& timeline, const std::string& source,
+                                             std::uint64_t frame, const scene::Knobs& knobs, Shown shown,
+                                             const std::string& output) {
+  if (asks_for_canvas(knobs)) return canvas_picture(timeline, source, frame, knobs, shown, output);
+  const auto& gpu = timeline.seek({frame, debug::whole_frame});
+  if (auto judged = judge_without_depth(source, knobs, {timeline.frame_end(), frame}); !judged)
+    return tl::make_unexpected(judged.error());
+  if (shown != Shown::drawn) {
+    return shown_picture(gpu, output).map([&](const base::Picture& picture) {
+      return machine::Presenter::show(picture, knobs);
+    });
+  }
+  return picture_of_clip({}, gpu, shown_area(gpu, shown), knobs);
+}
+
+void add_shown_option(Arguments& arguments, std::string& shown) {
+  arguments.choice("--shown", shown, {"drawn", "display"},
+                   "recording with two buffers: the one drawn to, or what the display shows [display; with "
+                   "knobs that VRAM cannot hold: drawn]");
 }
 
 cost::RecordedFrame recorded_frame(debug::Timeline& timeline, const std::string& name, std::uint64_t frame) {

@@ -15,7 +15,6 @@
 #include "app/commands/open_scene.h"
 #include "app/commands/progress.h"
 #include "app/commands/recorded.h"
-#include "app/commands/shown.h"
 #include "app/commands/without_depth.h"
 #include "app/source.h"
 #include "app/viewer.h"
@@ -27,7 +26,7 @@ namespace app {
 namespace {
 
 struct RenderOptions {
-  std::string scene, output, directory = "out", camera;
+  std::string scene, output, directory = "out", camera, shown;
   bool all = false;
   std::optional<std::uint64_t> frame;
   SourceOptions source_options;
@@ -73,12 +72,10 @@ base::Result<void> render_recording(Source source, const RenderOptions& options)
   auto knobs = options.knobs;
   if (knobs.without_depth == scene::Knobs().without_depth) knobs.without_depth = foreign_without_depth;
   const std::uint64_t frame = options.frame.value_or(1);
-  const auto timeline = open_at_frame(source, knobs, frame);
+  const auto timeline = open_at_frame(source, knobs, frame, DrawnTo::canvas);
   if (!timeline) return tl::make_unexpected(timeline.error());
-  const auto& gpu = (*timeline)->seek({frame, debug::whole_frame});
-  if (auto judged = judge_without_depth(options.scene, knobs, {(*timeline)->frame_end(), frame}); !judged)
-    return judged;
-  const auto picture = shown_picture(gpu, options.output);
+  const auto picture =
+      recorded_picture(**timeline, options.scene, frame, knobs, shown_named(options.shown), options.output);
   if (!picture) return tl::make_unexpected(picture.error());
   if (auto written = display::write_png(options.output, *picture); !written) return written;
   std::printf("%s: %s frame %llu, %dx%d, %llu commands\n", base::printable(options.output).c_str(),
@@ -147,6 +144,7 @@ Action add_render(Arguments arguments) {
                  "stand there instead: world units and degrees, 0,0 looks along -z");
   arguments.flag("--all", options->all, "render every scene of `otter list`");
   arguments.text("-d,--directory", "DIR", options->directory, "with --all: where to write SCENE.png [out]");
+  add_shown_option(arguments, options->shown);
   add_source_options(arguments, options->source_options);
   arguments.knobs(options->knobs);
   return [options] { return render(*options); };

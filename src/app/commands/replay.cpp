@@ -16,6 +16,7 @@
 #include "app/commands/expect.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
+#include "app/commands/recorded.h"
 #include "app/commands/shown.h"
 #include "app/commands/without_depth.h"
 #include "app/source.h"
@@ -33,7 +34,7 @@ namespace app {
 namespace {
 
 struct ReplayOptions {
-  std::string dump, vram, output, readback, until, json, frame_by;
+  std::string dump, vram, output, readback, until, json, frame_by, shown;
   std::optional<std::uint64_t> frame;
   std::uint64_t repeat = 0;
   bool list = false;
@@ -51,6 +52,13 @@ base::Result<void> check_options(const ReplayOptions& options) {
     return base::fail("--json: expected either --list or --expect beside it");
   if (!options.expect.expect.empty() && !options.expect.frames.empty())
     return base::fail("--expect-frames: expected no --expect beside it");
+  if (asks_for_canvas(options.knobs)) {
+    if (options.output.empty() || !options.until.empty())
+      return base::fail(std::string(canvas_knobs) +
+                        ": expected -o FILE and no --until beside it: they draw whole frames on a canvas");
+    if (options.frame && !options.counts_frames())
+      return base::fail(std::string(canvas_knobs) + ": expected --frame-by display beside --frame");
+  }
   if (!options.expect.is_asked() && !(options.expect.mask.empty() && options.expect.difference.empty()))
     return base::fail("--mask, --difference: expected --expect or --expect-frames beside it");
   return {};
@@ -146,13 +154,25 @@ std::uint64_t best_nanoseconds(const dump::Dump& dump, const dump::ReplayOptions
   return static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(best).count());
 }
 
-base::Result<void> save(const ReplayOptions& options, const gpu::Gpu& gpu,
+/// What `gpu` shows; with knobs that VRAM cannot hold, the frame it ended with drawn anew.
+base::Result<base::Picture> picture_of(const ReplayOptions& options, debug::Timeline& timeline,
+                                       const gpu::Gpu& gpu) {
+  const auto shown = shown_named(options.shown);
+  if (asks_for_canvas(options.knobs)) {
+    return recorded_picture(timeline, options.dump, options.frame.value_or(timeline.frames()), options.knobs,
+                            shown, options.output);
+  }
+  if (shown == Shown::drawn) return picture_of_clip({}, gpu, shown_area(gpu, shown), options.knobs);
+  return shown_picture(gpu, options.output);
+}
+
+base::Result<void> save(const ReplayOptions& options, debug::Timeline& timeline, const gpu::Gpu& gpu,
                         const std::vector<std::uint32_t>& readback) {
   if (!options.vram.empty()) {
     if (auto written = display::save_vram(options.vram, gpu.vram()); !written) return written;
   }
   if (!options.output.empty()) {
-    const auto picture = shown_picture(gpu, options.output);
+    const auto picture = picture_of(options, timeline, gpu);
     if (!picture) return tl::make_unexpected(picture.error());
     if (auto written = display::write_png(options.output, *picture); !written) return written;
   }
@@ -213,7 +233,7 @@ base::Result<int> replay(const ReplayOptions& options) {
   const auto replayed = dump::replay(dump, gpu, limits);
   if (auto judged = judge_without_depth(options.dump, options.knobs, replayed); !judged)
     return tl::make_unexpected(judged.error());
-  if (auto saved = save(options, gpu, readback); !saved) return tl::make_unexpected(saved.error());
+  if (auto saved = save(options, timeline, gpu, readback); !saved) return tl::make_unexpected(saved.error());
   if (interrupt.was_asked()) {
     return base::fail("interrupted: what was drawn until then is written", base::Exit::interrupted);
   }
@@ -256,8 +276,8 @@ Action add_replay(Arguments arguments) {
   add_expect_options(arguments, options->expect);
   arguments.text("--readback", "FILE", options->readback, "write the words that the dump reads back");
   options->knobs.without_depth = foreign_without_depth;
-  arguments.knobs(options->knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",
-                                   "near", "far", "without-depth"});
+  add_shown_option(arguments, options->shown);
+  arguments.knobs(options->knobs, recording_knobs);
   return [options] { return replay(*options); };
 }
 

@@ -14,8 +14,10 @@
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
 #include "app/commands/ram_image.h"
+#include "app/commands/recorded.h"
 #include "app/commands/without_depth.h"
 #include "base/message.h"
+#include "display/png.h"
 #include "display/vram_file.h"
 #include "gpu/depth.h"
 #include "gpu/gpu.h"
@@ -29,7 +31,7 @@ namespace app {
 namespace {
 
 struct WalkOptions {
-  std::string image, head, table, vram_in, vram;
+  std::string image, head, table, vram_in, vram, output;
   scene::Knobs knobs;
 };
 
@@ -149,6 +151,17 @@ base::Result<int> walk(const WalkOptions& options) {
     if (auto saved = display::save_vram(options.vram, gpu.vram()); !saved)
       return tl::make_unexpected(saved.error());
   }
+  if (!options.output.empty()) {
+    auto recording = debug::Recording::of_list(*image, *vram);
+    if (!recording) return tl::make_unexpected(recording.error());
+    debug::Timeline timeline(std::move(*recording), draw_options(options.knobs));
+    if (auto first = timeline.read_first_frame(); !first) return tl::make_unexpected(first.error());
+    const auto picture =
+        recorded_picture(timeline, options.image, 1, options.knobs, Shown::either, options.output);
+    if (!picture) return tl::make_unexpected(picture.error());
+    if (auto written = display::write_png(options.output, *picture); !written)
+      return tl::make_unexpected(written.error());
+  }
   if (interrupt.was_asked()) {
     return base::fail("interrupted: what was drawn until then is told and written", base::Exit::interrupted);
   }
@@ -169,8 +182,9 @@ Action add_walk(Arguments arguments) {
   arguments.text("--vram", "FILE", options->vram,
                  "write all of VRAM: FILE.png, or 1 MiB of little-endian halfwords");
   options->knobs.without_depth = foreign_without_depth;
-  arguments.knobs(options->knobs, {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed",
-                                   "near", "far", "without-depth"});
+  arguments.text("-o,--output", "FILE", options->output,
+                 "write the picture as a PNG: the drawing area of the list");
+  arguments.knobs(options->knobs, recording_knobs);
   return [options] { return walk(*options); };
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/subject.h"
+#include "app/window/pad_keys.h"
 #include "app/window/program_keys.h"
 #include "app/window/vram_view.h"
 
@@ -76,6 +77,7 @@ void Input::take(const SDL_Event& event, double now, Rect picture, WindowState& 
                     [](const auto& c) { return SDL_GameControllerGetAttached(c.get()) == SDL_FALSE; });
       break;
     case SDL_CONTROLLERBUTTONDOWN: {
+      if (state.recorded.wants_pad) break;
       const auto button = static_cast<SDL_GameControllerButton>(event.cbutton.button);
       const char* name = SDL_GameControllerGetStringForButton(button);
       if (const auto asked = asked_by_button(name != nullptr ? name : "")) handle(state, *asked);
@@ -132,6 +134,7 @@ void Input::take_key(const SDL_KeyboardEvent& key, double now, WindowState& stat
     if (const auto asked = asked_by_key(control_name(name))) handle(state, *asked);
     return;
   }
+  if (state.recorded.wants_pad && is_pad_key(name)) return;
   const auto shifted = (held & KMOD_SHIFT) != 0 ? asked_by_key("Shift " + name) : std::nullopt;
   if (!shifted && held_.press(name, now)) return;
   const auto asked = shifted ? shifted : asked_by_key(name);
@@ -198,6 +201,7 @@ Motion Input::controller_motion() const {
 bool Input::is_moving() const { return held_.any() || controller_motion().any(); }
 
 void Input::move_camera(double now, double passed, const Subject* machine, WindowState& state) const {
+  if (state.recorded.wants_pad) return;  // the sticks are the program's
   const double turn = radians_per_second * passed;
   for (const Motion& motion : {held_.motion(now), controller_motion()}) {
     if (!motion.any()) continue;

@@ -94,7 +94,7 @@ base::Result<WindowScene> open_entry(const std::string& name, const SourceOption
   if (!timeline) return tl::make_unexpected(timeline.error());
   (*timeline)->set_options({});  // the console; a z-buffer draws frame by frame
   const std::shared_ptr<debug::Timeline> shared = std::move(*timeline);
-  const auto what = shown == "drawn" ? Shown::drawn : shown == "display" ? Shown::display : Shown::either;
+  const auto what = shown_named(shown);
   return WindowScene{
       name,
       [name, shared, what](const scene::Knobs& /*now*/) {

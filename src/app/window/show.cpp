@@ -43,7 +43,7 @@ base::Result<void> Show::change_scene(const WindowState& state) {
 base::Result<bool> Show::update(const WindowState& state) {
   const Asked asked{state.scene,  state.frame,      state.knobs,      state.other_knobs(),
                     state.camera, state.compares(), state.differences};
-  if (asked == drawn_) return false;
+  if (asked == drawn_ && !(shown_ && shown_->is_behind())) return false;
   drawn_ = asked;
   if (state.scene != scene_) {
     if (auto changed = change_scene(state); !changed) return tl::make_unexpected(changed.error());

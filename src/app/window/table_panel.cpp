@@ -326,6 +326,7 @@ void draw_details(WindowState& state, Lens& lens, float scale, TableAsks& asks) 
 void draw_lint(const debug::FrameView& view) {
   if (view.trace().is_full)
     ImGui::TextColored(fault_colour, "%s", c_str("counts are short: " + view.trace().limit_text()));
+  for (const auto& note : view.clip().notes) ImGui::TextWrapped("%s", note.c_str());
   for (const auto& lint : view.clip().lint) {
     if (lint.text.starts_with("not available")) continue;
     ImGui::TextColored(fault_colour, "%s", c_str(lint.kind + " " + lint.at));

@@ -22,6 +22,7 @@
 #include "app/window/metering.h"
 #include "app/window/overlay.h"
 #include "app/window/pacing.h"
+#include "app/window/pad_keys.h"
 #include "app/window/panel_frame.h"
 #include "app/window/saves.h"
 #include "app/window/screen.h"
@@ -90,6 +91,7 @@ class Window {
   void lay_out_window();
   [[nodiscard]] base::Picture shown_picture() const;
   void save_picture();
+  void record();
   void told_saved(const base::Result<void>& written, const std::filesystem::path& path);
   [[nodiscard]] bool is_at_rest() const;
   void wait_for_next();
@@ -217,6 +219,9 @@ void Window::update() {
   let_pass(state_, passed);
   input_.move_camera(now, std::min(passed, 0.1), show_.machine(), state_);
   follow_recording();
+  if (auto* subject = show_.machine(); subject != nullptr && subject->wants_pad()) {
+    subject->hold(held_pad(ImGui::GetIO().WantTextInput));
+  }
   const auto updated = show_.update(state_);
   if (!updated) {
     if (message_ != updated.error().text) say(updated.error().text, true);
@@ -235,6 +240,7 @@ void Window::update() {
     if (message_is_error_) message_.clear();
   }
   follow_recording();
+  if (show_.machine() != nullptr && show_.machine()->is_behind()) return;  // it has another frame
   look_closely();
   state_.clicked.reset();  // a click that nobody wanted
   inspect();
@@ -257,8 +263,11 @@ void Window::follow_recording() {
   if (auto* live = subject->live()) return follow_program(*live);
   const auto last = subject->last_frame();
   state_.recorded.last = last.value_or(0);
-  if (!last) return;
-  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, *last);
+  state_.recorded.is_growing = subject->is_growing();
+  state_.recorded.has_ended = subject->has_ended();
+  state_.recorded.wants_pad = subject->wants_pad();
+  if (!last || subject->is_behind()) return;  // how far it comes is not known yet
+  state_.frame = std::clamp<std::int64_t>(state_.frame, 1, state_.recorded.furthest());
   constexpr double indexing_ms_per_frame = 8;
   if (is_indexing_) is_indexing_ = subject->index_some(indexing_ms_per_frame);
   if (show_.different().value_or(0) != 0) {
@@ -299,7 +308,6 @@ void Window::tell_program(LiveLink& link) {
   if (std::exchange(told_.fast, live.fast) != live.fast) link.ask(LiveAsk::fast, live.fast);
   if (std::exchange(told_.pace, state_.pace) != state_.pace)
     link.ask(LiveAsk::pace, static_cast<std::uint32_t>(state_.pace));
-  if (std::exchange(state_.live.record, false)) link.ask(LiveAsk::record);
   for (const auto& key : std::exchange(state_.live.keys, {}))
     link.ask(key.is_down ? LiveAsk::key_down : LiveAsk::key_up, key.keysym);
   if (!link.has_ended()) {
@@ -515,6 +523,19 @@ void Window::draw() {
   gui_->end();
 }
 
+// Begins or ends it.
+void Window::record() {
+  auto* subject = show_.machine();
+  if (subject == nullptr) return;
+  if (auto* live = subject->live()) {
+    if (live->link() != nullptr) live->link()->ask(door::LiveAsk::record);
+    return;
+  }
+  const auto path = free_name(show_.scene_name(), state_.frame, "", ".psxgpu");
+  const auto done = subject->record(std::filesystem::absolute(path).string());
+  say(done ? *done : done.error().text, !done);
+}
+
 void Window::told_saved(const base::Result<void>& written, const std::filesystem::path& path) {
   if (!written) return say(written.error().text, true);
   std::error_code ignored;
@@ -533,8 +554,9 @@ void Window::save_picture() {
 
 // At rest nothing changes on the screen until something happens outside.
 bool Window::is_at_rest() const {
-  const bool is_busy =
-      metering_.is_measuring() || input_.is_moving() || (is_indexing_ && state_.recorded.last != 0);
+  const bool is_behind = show_.machine() != nullptr && show_.machine()->is_behind();
+  const bool is_busy = metering_.is_measuring() || is_behind || input_.is_moving() ||
+                       (is_indexing_ && state_.recorded.last != 0);
   return state_.paused && redraws_ == 0 && !is_busy && !options_.frames;
 }
 
@@ -584,6 +606,7 @@ base::Result<int> Window::run() {
       told_saved(save_window(renderer_.get(), path), path);
     }
     if (std::exchange(state_.save_picture, false)) save_picture();
+    if (std::exchange(state_.record, false)) record();
     SDL_RenderPresent(renderer_.get());
     if (is_last) break;
     wait_for_next();

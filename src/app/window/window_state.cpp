@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::array key_bindings{
     Binding{KeyAction::switch_visibility, "Tab", "", "a",
-            "switch between the ordering key_bindings and the z-buffer"},
+            "switch between the ordering table and the z-buffer"},
     Binding{KeyAction::split, "V", "", "b", "split screen: both, with a divider to drag"},
     Binding{KeyAction::differences, "D", "", "x", "show the pixels on which the two differ"},
     Binding{KeyAction::next_visibility, "M", "", "", "next mode: ot, sorted, bsp, zbuffer"},
@@ -23,7 +23,6 @@ constexpr std::array key_bindings{
     Binding{KeyAction::previous_frame, "B", "", "dpleft", "pause, and one frame back"},
     Binding{KeyAction::next_pace, "P", "", "", "pace: vsync, 60 Hz, 50 Hz, slow motion"},
     Binding{KeyAction::loop, "L", "", "", "recording: loop from here; again: to here; again: no loop"},
-    Binding{KeyAction::record, "F8", "", "", "live program: record it into a dump; again: the dump ends"},
     Binding{KeyAction::fast, "F9", "", "", "live program: as fast as it can; again: at its pace"},
     Binding{KeyAction::program_keys, "Insert", "", "",
             "live program: all keys but Insert and F1 - F12 are its own; again: those without meaning here"},
@@ -56,6 +55,7 @@ constexpr std::array key_bindings{
     Binding{KeyAction::save_picture, "F12", "", "",
             "save the picture, pixel for pixel, into the current folder"},
     Binding{KeyAction::save_window, "Shift F12", "", "", "save the whole window, likewise"},
+    Binding{KeyAction::record, "F8", "", "", "program: record what it sends as a dump; again: stop"},
     Binding{KeyAction::quit, "Q", "", "", "quit"},
 };
 
@@ -68,6 +68,9 @@ constexpr std::array held{
     Gesture{"W A S D R F (hold), triggers", "fly: forward, left, back, right, up, down"},
     Gesture{"right drag, right stick", "look round"},
     Gesture{"mouse wheel", "nearer, farther"},
+    Gesture{"program: arrows, W A S D", "its pad: directions; triangle, square, cross, circle"},
+    Gesture{"program: R F, U J", "its pad: L1 and L2, R1 and R2"},
+    Gesture{"program: Return, Backspace", "its pad: start, select"},
 };
 
 template <class E>
@@ -287,9 +290,6 @@ void handle(WindowState& state, Asked asked) {
     case KeyAction::fast:
       toggle(state.live.fast);
       break;
-    case KeyAction::record:
-      state.live.record = state.live.is_live;
-      break;
     case KeyAction::program_keys:
       toggle(state.live.program_keys);
       break;
@@ -314,6 +314,9 @@ void handle(WindowState& state, Asked asked) {
     case KeyAction::save_window:
       state.save_window = true;
       break;
+    case KeyAction::record:
+      state.record = true;
+      break;
     case KeyAction::quit:
       state.quit = true;
       break;
@@ -325,7 +328,7 @@ void pause_at(WindowState& state, std::int64_t frame) {
   state.late = 0;
   const bool is_recorded = state.recorded.last > 0;
   state.frame = std::max<std::int64_t>(frame, is_recorded ? state.recorded.first : 0);
-  if (is_recorded) state.frame = std::min(state.frame, state.recorded.last);
+  if (is_recorded) state.frame = std::min(state.frame, state.recorded.furthest());
 }
 
 void let_pass(WindowState& state, double seconds) {
@@ -353,6 +356,11 @@ void let_pass(WindowState& state, double seconds) {
   state.late = std::max(due - whole, 0.0) / frames_per_second;
   if (!is_recorded) return;
   const auto& recorded = state.recorded;
+  if (recorded.is_growing && !recorded.to) {
+    state.frame = std::min(state.frame, recorded.last + (recorded.has_ended ? 0 : 1));
+    if (recorded.has_ended && state.frame == recorded.last) state.paused = true;
+    return;
+  }
   const bool is_outside = state.frame < recorded.first_played() || state.frame > recorded.last_played();
   if (is_outside) state.frame = recorded.first_played();
 }

@@ -54,7 +54,6 @@ enum class KeyAction : std::uint8_t {
   solo,
   loop,
   fast,          ///< live program: as fast as it can, or at its pace
-  record,        ///< live program: begins or ends a recording
   program_keys,  ///< live program: it gets all keys but the function keys, or those that mean nothing here
   larger_text,
   smaller_text,
@@ -63,6 +62,7 @@ enum class KeyAction : std::uint8_t {
   fullscreen,
   save_picture,
   save_window,
+  record,  ///< of a program: begins or ends a recording
   quit,
 };
 
@@ -145,7 +145,6 @@ struct LiveState {
   bool fast = false, program_keys = false;
   bool is_recording = false;  ///< told by the program
   int go = 0;                 ///< frames to go while it waits, asked for; the window does it and clears this
-  bool record = false;        ///< asked for, likewise
   struct Key {
     std::uint32_t keysym = 0;  ///< X11's
     bool is_down = false;
@@ -158,6 +157,14 @@ struct Recorded {
   std::int64_t first = 1;                ///< that there still is: of a live program not the first it had
   std::int64_t last = 0;                 ///< 0: it is a scene
   std::optional<std::int64_t> from, to;  ///< the loop, ends included
+  bool is_growing = false;               ///< frames are made behind the last
+  bool has_ended = false;                ///< no more of them
+  bool wants_pad = false;                ///< the keys of app::pad_keys are the program's
+  /// The last frame that can be asked for.
+  [[nodiscard]] std::int64_t furthest() const {
+    constexpr std::int64_t anywhere = 1'000'000'000;
+    return is_growing && !has_ended ? anywhere : last;
+  }
   [[nodiscard]] std::int64_t first_played() const { return from.value_or(first); }
   [[nodiscard]] std::int64_t last_played() const { return to.value_or(last); }
 };
@@ -192,6 +199,7 @@ struct WindowState {
   bool close_menu = false;    ///< asked for; the window does it and clears this
   bool save_picture = false;  ///< asked for, likewise
   bool save_window = false;   ///< asked for, likewise
+  bool record = false;        ///< asked for, likewise
   bool quit = false;
   CameraOffset camera;
 
@@ -213,7 +221,8 @@ void pause_at(WindowState& state, std::int64_t frame);
 
 /// Lets `seconds` of real time pass, unless paused or in a live program, which has its own: vsync counts 60
 /// frames a second, a fixed pace one per call, or of a scene at 50 Hz 1.2. A recording begins again behind
-/// its last frame, or behind that of the loop. A stall (a moved or minimised window) counts as a tenth of a
+/// its last frame, or behind that of the loop; a program that is run again and again goes on by one frame a
+/// call at most, and rests when it has ended. A stall (a moved or minimised window) counts as a tenth of a
 /// second.
 void let_pass(WindowState& state, double seconds);
 

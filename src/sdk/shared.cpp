@@ -1,0 +1,1 @@
+// The shared library is all of the static one; a target needs a source of its own.
