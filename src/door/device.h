@@ -35,6 +35,8 @@ class Device {
     if (is_plain_) return gpu_.gp0(words);
     gp0_watched(words);
   }
+  /// Words go to the GPU and to nobody else.
+  [[nodiscard]] bool is_plain() const { return is_plain_; }
   void gp1(std::uint32_t word);
   std::uint32_t read();
   void read(std::span<std::uint32_t> words);

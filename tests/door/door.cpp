@@ -97,6 +97,33 @@ TEST_SUITE("door") {
                                  "." + std::to_string(OTTER_VERSION_PATCH));
   }
 
+  TEST_CASE("A command that comes word by word may be cut by any other call") {
+    const Words triangle{0x200000ff, 0, 8, 8 << 16};
+    const auto gpu = fresh(), other = fresh();
+    gpu::Gpu plain;
+    send(gpu.get(), whole_area);
+    plain.gp0(whole_area);
+    for (std::size_t n = 0; n < 2; ++n) {
+      REQUIRE(otter_gp0_word(gpu.get(), triangle[n]) == OTTER_OK);
+      plain.gp0(triangle[n]);
+    }
+    CHECK((otter_status(gpu.get()) & 0x7fffffff) == (plain.status() & 0x7fffffff));
+    // Saved in the middle, it goes on elsewhere, in bulk; and here word by word.
+    std::vector<std::uint8_t> state(otter_save(gpu.get(), nullptr, 0));
+    REQUIRE(otter_save(gpu.get(), state.data(), state.size()) == state.size());
+    REQUIRE(otter_load(other.get(), state.data(), state.size()) == OTTER_OK);
+    send(other.get(), {triangle[2], triangle[3]});
+    for (std::size_t n = 2; n < 4; ++n) REQUIRE(otter_gp0_word(gpu.get(), triangle[n]) == OTTER_OK);
+    CHECK(pixel(gpu.get(), 1, 1) == 0x001f);
+    CHECK(vram(gpu.get()) == vram(other.get()));
+    // GP1(01h) drops what has begun.
+    REQUIRE(otter_gp0_word(gpu.get(), 0x02ffffff) == OTTER_OK);
+    REQUIRE(otter_gp1(gpu.get(), 0x01000000) == OTTER_OK);
+    for (const std::uint32_t word : {0x6000ff00U, 16U, 1U << 16 | 1U})
+      REQUIRE(otter_gp0_word(gpu.get(), word) == OTTER_OK);
+    CHECK(pixel(gpu.get(), 16, 0) == 0x03e0);
+  }
+
   TEST_CASE("Words through the library draw what the GPU draws, in bulk and one by one") {
     const Words words = random_words(1, 300);
     gpu::Gpu plain;
