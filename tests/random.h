@@ -24,7 +24,8 @@ class Random {
   /// low..high, both included.
   std::int32_t between(std::int32_t low, std::int32_t high) {
     return static_cast<std::int32_t>(
-        low + static_cast<std::int64_t>(below(static_cast<std::uint32_t>(high - low + 1))));
+        low + static_cast<std::int64_t>(
+                  below(static_cast<std::uint32_t>(high) - static_cast<std::uint32_t>(low) + 1)));
   }
 
   /// low..high, evenly.

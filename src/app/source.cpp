@@ -24,7 +24,7 @@ bool has_size_of_ram(const std::string& name) {
                     size == static_cast<std::uintmax_t>(ot::RamSize::mib8));
 }
 
-base::Result<Source> open_ram(const std::string& name, const RamOptions& options) {
+base::Result<Source> open_ram(const std::string& name, const SourceOptions& options) {
   auto image = read_ram_image(name, options.head, options.table);
   if (!image) return tl::make_unexpected(image.error());
   auto vram = read_vram(options.vram_in);
@@ -34,7 +34,7 @@ base::Result<Source> open_ram(const std::string& name, const RamOptions& options
   return Source{name, std::nullopt, std::move(*recording)};
 }
 
-base::Result<void> check_no_ram_options(const std::string& name, const RamOptions& options) {
+base::Result<void> check_no_ram_options(const std::string& name, const SourceOptions& options) {
   if (options.head.empty() && !(options.table.empty() && options.vram_in.empty()))
     return base::fail(name + ": --table and --vram-in go with the --head of a RAM image");
   return {};
@@ -42,23 +42,30 @@ base::Result<void> check_no_ram_options(const std::string& name, const RamOption
 
 }  // namespace
 
-void add_ram_options(Arguments& arguments, RamOptions& options) {
+void add_source_options(Arguments& arguments, SourceOptions& options) {
   arguments.text("--head", "ADDR", options.head,
                  "the file is a RAM image: the first tag of the list, hexadecimal");
   arguments.text("--table", "ADDR,N", options.table,
                  "with --head: the ordering table, address of entry 0, number of entries");
   arguments.text("--vram-in", "FILE", options.vram_in, "with --head: 1 MiB of VRAM to draw into [black]");
+  add_frame_by(arguments, options.frame_by);
 }
 
-base::Result<Source> open_source(const std::string& name, const RamOptions& ram) {
-  if (auto checked = check_no_ram_options(name, ram); !checked) return tl::make_unexpected(checked.error());
-  if (!ram.head.empty()) return open_ram(name, ram);
+void add_frame_by(Arguments& arguments, std::string& frame_by) {
+  arguments.choice("--frame-by", frame_by, {"display", "vsync"},
+                   "dump: a frame ends where the display shows another buffer, or at every VSync [display]");
+}
+
+base::Result<Source> open_source(const std::string& name, const SourceOptions& options) {
+  if (auto checked = check_no_ram_options(name, options); !checked)
+    return tl::make_unexpected(checked.error());
+  if (!options.head.empty()) return open_ram(name, options);
   if (demos::find(name) == nullptr) {
     const auto kind = base::kind_of_file(name);
     if (kind && *kind == base::FileKind::dump) {
       auto recording = debug::Recording::open(name);
       if (!recording) return tl::make_unexpected(recording.error());
-      return Source{name, std::nullopt, std::move(*recording)};
+      return Source{name, std::nullopt, std::move(*recording), dump::frame_by_named(options.frame_by)};
     }
     if (kind && *kind == base::FileKind::unknown && has_size_of_ram(name))
       return base::fail(name + ": a RAM image, as its size says; expected --head ADDR beside it");
@@ -81,6 +88,7 @@ base::Result<std::unique_ptr<debug::Timeline>> open_timeline(Source& source, con
     return tl::make_unexpected(checked.error());
   auto timeline = std::make_unique<debug::Timeline>(std::move(*source.recording), draw_options(knobs));
   source.recording.reset();
+  timeline->end_frames_by(source.frame_by);
   if (auto read = timeline->read_first_frame(); !read) return tl::make_unexpected(read.error());
   return timeline;
 }

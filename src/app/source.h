@@ -14,30 +14,35 @@
 #include "base/result.h"
 #include "debug/recording.h"
 #include "debug/timeline.h"
+#include "dump/frames.h"
 #include "scene/knobs.h"
 #include "scene/world.h"
 
 namespace app {
 
-/// --head, --table, --vram-in: what makes a RAM image a source. Empty: not given.
-struct RamOptions {
-  std::string head, table, vram_in;
+/// How a source is read: --head, --table, --vram-in make a RAM image one, --frame-by says where the frames of
+/// a dump end. Empty: not given.
+struct SourceOptions {
+  std::string head, table, vram_in, frame_by;
 };
-/// Declares the three.
-void add_ram_options(Arguments& arguments, RamOptions& options);
+/// Declares the four.
+void add_source_options(Arguments& arguments, SourceOptions& options);
+/// Declares --frame-by alone.
+void add_frame_by(Arguments& arguments, std::string& frame_by);
 
 /// Either a scene or a recording. A value: whoever opens it owns it.
 struct Source {
   std::string name;  ///< as it was given
   std::optional<scene::Scene> scene;
   std::optional<debug::Recording> recording;
+  dump::FrameBy frame_by = dump::FrameBy::display;
 
   [[nodiscard]] bool is_recording() const { return recording.has_value(); }
 };
 
 /// Opens what `name` means. Of a dump nothing but the beginning is read. Error (exit 2): one line that names
 /// what was expected.
-base::Result<Source> open_source(const std::string& name, const RamOptions& ram = {});
+base::Result<Source> open_source(const std::string& name, const SourceOptions& options = {});
 
 /// The timeline of a source that is a recording, its first frame read. `source.recording` is empty then.
 /// Error (exit 2): no frame of it is whole, or the knobs ask for what it has not got (visibility sorted or

@@ -20,6 +20,8 @@
 
 namespace app {
 
+class Live;
+
 class Subject {
  public:
   Subject() = default;
@@ -51,11 +53,15 @@ class Subject {
   [[nodiscard]] virtual std::unique_ptr<Subject> apart(std::int64_t frame, const scene::Knobs& knobs) = 0;
 
   [[nodiscard]] virtual bool is_recording() const { return false; }
+  /// A program that runs now; nullptr: it is something else.
+  [[nodiscard]] virtual Live* live() { return nullptr; }
+  /// Number of the first frame that there still is.
+  [[nodiscard]] virtual std::optional<std::int64_t> first_frame() const { return 1; }
   /// Number of its last frame so far, from 1; nothing: it goes on for ever, from 0.
   [[nodiscard]] virtual std::optional<std::int64_t> last_frame() const { return std::nullopt; }
   /// New frames are made behind the last one while it is played: a program that runs. Frames before it can be
   /// gone back to.
-  [[nodiscard]] virtual bool is_live() const { return false; }
+  [[nodiscard]] virtual bool is_growing() const { return false; }
   /// It makes no frames any more.
   [[nodiscard]] virtual bool has_ended() const { return false; }
   /// draw() was not done in the time it has: the same frame is to be asked for again.

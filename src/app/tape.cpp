@@ -13,6 +13,14 @@
 #include "scene/world.h"
 
 namespace app {
+
+base::Result<void> check_visibility(const scene::Knobs& knobs) {
+  const auto visibility = knobs.visibility;
+  if (visibility == scene::Visibility::ot || visibility == scene::Visibility::zbuffer) return {};
+  return base::fail("visibility " + knob_value(knobs, "visibility") +
+                    ": a recording has its own order; expected ot or zbuffer");
+}
+
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -23,13 +31,6 @@ double ms_since(Clock::time_point begin) {
 
 bool overlap(const display::Area& a, int x, int y, int width, int height) {
   return a.x < x + width && x < a.x + a.width && a.y < y + height && y < a.y + a.height;
-}
-
-base::Result<void> check_visibility(const scene::Knobs& knobs) {
-  const auto visibility = knobs.visibility;
-  if (visibility == scene::Visibility::ot || visibility == scene::Visibility::zbuffer) return {};
-  return base::fail("visibility " + knob_value(knobs, "visibility") +
-                    ": a recording has its own order; expected ot or zbuffer");
 }
 
 // The accurate target that the knobs ask for; a recording's polygons may be of any kind.
@@ -49,8 +50,7 @@ base::Result<void> check_applicable(const scene::Knobs& knobs) {
   return check_visibility(knobs);
 }
 
-}  // namespace
-
+/// Why a frame shows nothing; empty: it shows something. `drawn`: its drawing commands.
 std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn) {
   if (area.width <= 0 || area.height <= 0) {
     return "nothing to show: the display area is empty (" + std::to_string(area.width) + " x " +
@@ -59,6 +59,8 @@ std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::ui
   if (drawn != 0 || !gpu.display().is_off) return {};
   return "nothing to show: the display is off, and the frame draws nothing; F3 shows VRAM";
 }
+
+}  // namespace
 
 Shown shown_named(std::string_view name) {
   return name == "drawn" ? Shown::drawn : name == "display" ? Shown::display : Shown::either;
@@ -108,11 +110,32 @@ base::Result<DrawnClip> draw_clip(const debug::Clip& clip, const scene::Knobs& k
   return drawn;
 }
 
+namespace {
+
+/// `area` of the picture on the canvas; nothing where it does not lie there.
+std::optional<base::Picture> part_of_canvas(const DrawnClip& drawn, const gpu::Gpu& gpu,
+                                            const display::Area& area, const scene::Knobs& knobs) {
+  if (!drawn.canvas) return std::nullopt;
+  const auto& size = gpu.canvas()->options();
+  const int left = area.x - drawn.canvas->x, top = area.y - drawn.canvas->y;
+  if (left < 0 || top < 0 || left + area.width > size.width || top + area.height > size.height)
+    return std::nullopt;
+  auto whole = machine::Presenter().show(gpu, knobs);
+  if (area.width == size.width && area.height == size.height) return whole;
+  const int across = whole.width / size.width, down = whole.height / size.height;
+  base::Picture part(area.width * across, area.height * down);
+  for (int y = 0; y < part.height; ++y)
+    for (int x = 0; x < part.width; ++x) part.at(x, y) = whole.at(left * across + x, top * down + y);
+  return part;
+}
+
+}  // namespace
+
 base::Picture picture_of_clip(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area,
                               const scene::Knobs& knobs) {
   if (area.width <= 0 || area.height <= 0) return {320, 240};
   machine::Presenter presenter;
-  if (drawn.canvas == machine::Corner{area.x, area.y}) return presenter.show(gpu, knobs);
+  if (auto picture = part_of_canvas(drawn, gpu, area, knobs)) return *std::move(picture);
   return presenter.show(display::scan_out(gpu.vram().pixels(), area), knobs);
 }
 
@@ -136,8 +159,25 @@ std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu) {
   return copy;
 }
 
+base::Result<scene::FrameStats> ClipDrawer::show(const debug::Clip& clip, const scene::Knobs& knobs) {
+  const auto drawn = draw_clip(clip, knobs, gpu_, trace_);
+  if (!drawn) return tl::make_unexpected(drawn.error());
+  show(*drawn, knobs);
+  return drawn->stats;
+}
+
+void ClipDrawer::show(const DrawnClip& drawn, const scene::Knobs& knobs) {
+  const auto area = shown_area(gpu_, shown_);
+  why_empty_ = empty_reason(gpu_, area, drawn.stats.primitives);
+  picture_ = picture_of_clip(drawn, gpu_, area, knobs);
+}
+
+std::string ClipDrawer::why_idle(const scene::KnobInfo& knob) const {
+  return applies_to_recordings(knob.name) ? std::string() : std::string(why_not_for_recordings);
+}
+
 Tape::Tape(std::string name, std::shared_ptr<debug::Timeline> timeline, Shown shown)
-    : name_(std::move(name)), timeline_(std::move(timeline)), shown_(shown) {}
+    : ClipDrawer(shown), name_(std::move(name)), timeline_(std::move(timeline)) {}
 
 std::uint64_t Tape::within(std::int64_t frame) const {
   const auto last = static_cast<std::int64_t>(std::max<std::uint64_t>(timeline_->frames(), 1));
@@ -163,9 +203,7 @@ base::Result<scene::FrameStats> Tape::draw(std::int64_t frame, const scene::Knob
     if (!clip) return tl::make_unexpected(clip.error());
     drawn = *clip;
   }
-  const auto area = shown_area(gpu_, shown_);
-  why_empty_ = empty_reason(gpu_, area, stats.primitives);
-  picture_ = picture_of_clip(drawn, gpu_, area, knobs);
+  show(drawn, knobs);
   return stats;
 }
 
@@ -185,10 +223,6 @@ std::unique_ptr<Subject> Tape::apart(std::int64_t frame, const scene::Knobs& /*k
 
 std::optional<std::int64_t> Tape::last_frame() const {
   return static_cast<std::int64_t>(std::max<std::uint64_t>(timeline_->frames(), 1));
-}
-
-std::string Tape::why_idle(const scene::KnobInfo& knob) const {
-  return applies_to_recordings(knob.name) ? std::string() : std::string(why_not_for_recordings);
 }
 
 base::Result<scene::FrameStats> ClipSubject::draw(std::int64_t /*frame*/, const scene::Knobs& knobs,

@@ -22,6 +22,8 @@ enum class Shown : std::uint8_t {
   display,
 };
 
+/// What a recording has of its own: an order, not a rule to make one. Error: another than ot or zbuffer.
+base::Result<void> check_visibility(const scene::Knobs& knobs);
 /// "drawn", "display"; anything else is either.
 Shown shown_named(std::string_view name);
 
@@ -47,10 +49,37 @@ bool asks_for_canvas(const scene::Knobs& knobs);
 std::vector<const scene::KnobInfo*> unwatched_of_clips(const scene::Knobs& knobs);
 /// VRAM, with the canvas in 16 bits where it can be watched.
 std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu);
-/// Why a frame of a recording shows nothing; empty: it shows something. `drawn`: its drawing commands.
-std::string empty_reason(const gpu::Gpu& gpu, const display::Area& area, std::uint64_t drawn);
 
-class Tape final : public Subject {
+/// What is drawn from clips: a recording, or a program that runs.
+class ClipDrawer : public Subject {
+ public:
+  void watch(gpu::Trace* trace) override { trace_ = trace; }
+  [[nodiscard]] const base::Picture& picture() const override { return picture_; }
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
+  [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
+  [[nodiscard]] display::Area area() const override { return shown_area(gpu_, shown_); }
+  [[nodiscard]] bool is_recording() const override { return true; }
+  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
+    return unwatched_of_clips(knobs);
+  }
+  [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
+  [[nodiscard]] std::string why_empty() const override { return why_empty_; }
+
+ protected:
+  explicit ClipDrawer(Shown shown) : shown_(shown) {}
+  /// Draws the clip and makes the picture of it.
+  base::Result<scene::FrameStats> show(const debug::Clip& clip, const scene::Knobs& knobs);
+  /// Makes the picture of what gpu_ has drawn.
+  void show(const DrawnClip& drawn, const scene::Knobs& knobs);
+
+  Shown shown_;
+  gpu::Trace* trace_ = nullptr;
+  gpu::Gpu gpu_;  // as the frame left it
+  base::Picture picture_{320, 240};
+  std::string why_empty_;
+};
+
+class Tape final : public ClipDrawer {
  public:
   /// `timeline` has its first frame; all tapes made by another() share it. `name`: of the file.
   Tape(std::string name, std::shared_ptr<debug::Timeline> timeline, Shown shown = Shown::either);
@@ -58,24 +87,13 @@ class Tape final : public Subject {
   /// In z-buffer mode the frame alone is drawn so, over what the console left of the frames before it.
   base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                        const CameraOffset& camera) override;
-  void watch(gpu::Trace* trace) override { trace_ = trace; }
-  [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
-  [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
-  [[nodiscard]] display::Area area() const override { return shown_area(gpu_, shown_); }
   base::Result<debug::Clip> clip(std::int64_t frame, const scene::Knobs& knobs,
                                  const CameraOffset& camera) override;
   [[nodiscard]] std::unique_ptr<Subject> another(const scene::Knobs& knobs) const override;
   [[nodiscard]] std::unique_ptr<Subject> apart(std::int64_t frame, const scene::Knobs& knobs) override;
-  [[nodiscard]] bool is_recording() const override { return true; }
   [[nodiscard]] std::optional<std::int64_t> last_frame() const override;
   bool index_some(double milliseconds) override { return timeline_->index_some(milliseconds); }
   [[nodiscard]] double progress() const override { return timeline_->progress(); }
-  [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
-  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
-    return unwatched_of_clips(knobs);
-  }
-  [[nodiscard]] std::string why_empty() const override { return why_empty_; }
   [[nodiscard]] const debug::Timeline& timeline() const { return *timeline_; }
 
  private:
@@ -83,23 +101,14 @@ class Tape final : public Subject {
 
   std::string name_;
   std::shared_ptr<debug::Timeline> timeline_;
-  Shown shown_;
-  gpu::Trace* trace_ = nullptr;
-  gpu::Gpu gpu_;  // as the frame left it
-  base::Picture picture_;
-  std::string why_empty_;
 };
 
 /// One frame alone: what a thread of its own can measure.
-class ClipSubject final : public Subject {
+class ClipSubject final : public ClipDrawer {
  public:
-  explicit ClipSubject(debug::Clip clip) : clip_(std::move(clip)) {}
+  explicit ClipSubject(debug::Clip clip) : ClipDrawer(Shown::either), clip_(std::move(clip)) {}
   base::Result<scene::FrameStats> draw(std::int64_t frame, const scene::Knobs& knobs,
                                        const CameraOffset& camera) override;
-  void watch(gpu::Trace* trace) override { trace_ = trace; }
-  [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
-  [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
   base::Result<debug::Clip> clip(std::int64_t /*frame*/, const scene::Knobs& /*knobs*/,
                                  const CameraOffset& /*camera*/) override {
     return clip_;
@@ -110,17 +119,9 @@ class ClipSubject final : public Subject {
   [[nodiscard]] std::unique_ptr<Subject> apart(std::int64_t /*frame*/, const scene::Knobs& knobs) override {
     return another(knobs);
   }
-  [[nodiscard]] bool is_recording() const override { return true; }
-  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
-    return unwatched_of_clips(knobs);
-  }
-  [[nodiscard]] std::string why_empty() const override { return {}; }
 
  private:
   debug::Clip clip_;
-  gpu::Trace* trace_ = nullptr;
-  gpu::Gpu gpu_;
-  base::Picture picture_;
 };
 
 }  // namespace app

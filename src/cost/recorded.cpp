@@ -24,10 +24,11 @@ class Stage {
  public:
   explicit Stage(const RecordedFrame& frame) : frame_(frame) { gpu_.set_depth(frame.depth); }
 
+  /// Milliseconds by the clock; cpu_ms() then tells those of the processor.
   base::Result<double> draw(const Pieces& pieces) {
     if (const auto fault = gpu_.load(frame_.before)) return base::fail(frame_.name + ": " + fault->message);
     gpu_.reset_counters();
-    const double begin = base::now_ms();
+    const double begin = base::now_ms(), cpu_begin = base::cpu_ms();
     gpu_.begin_frame();
     for (const auto& piece : pieces) {
       if (!piece.is_control) gpu_.gp0(piece.words);
@@ -35,13 +36,16 @@ class Stage {
         for (const auto word : piece.words) gpu_.gp1(word);
     }
     gpu_.end_frame();
+    cpu_ms_ = base::cpu_ms() - cpu_begin;
     return base::now_ms() - begin;
   }
+  [[nodiscard]] double cpu_ms() const { return cpu_ms_; }
   [[nodiscard]] gpu::Gpu& gpu() { return gpu_; }
 
  private:
   const RecordedFrame& frame_;
   gpu::Gpu gpu_;
+  double cpu_ms_ = 0;
 };
 
 Pieces edited(const Pieces& pieces, std::size_t effect) {
@@ -199,13 +203,15 @@ base::Result<SceneResult> sweep(const RecordedFrame& frame, const SweepOptions& 
   result.height = frame.height;
   result.rounds = options.rounds;
   const auto stopped = [&] { return options.stop && options.stop(); };
+  std::string idle;
   for (const Axis& axis : axes()) {
     const bool is_asked =
         options.axes.empty() || std::ranges::find(options.axes, &axis) != options.axes.end();
     if (is_asked && axis.measure != Measure::wrong_surface)
-      result.skipped.push_back(std::string(axis.name) +
-                               ": a recording holds packets, not the world they came from");
+      idle.append(idle.empty() ? "" : ", ").append(axis.name);
   }
+  if (!idle.empty())
+    result.skipped.push_back(idle + ": a recording holds packets, not the world they came from");
   const Axis* const axis = find_axis("visibility");
   if (axis == nullptr ||
       (!options.axes.empty() && std::ranges::find(options.axes, axis) == options.axes.end()))
@@ -214,6 +220,7 @@ base::Result<SceneResult> sweep(const RecordedFrame& frame, const SweepOptions& 
   std::vector<RecordedFrame> frames;
   const auto settings = recorded_settings(*axis, options);
   frames.reserve(settings.size());
+  std::string without_depth;
   for (const auto& [name, knobs] : settings) {
     frames.push_back(frame);
     frames.back().depth = scene::depth_options(knobs);
@@ -221,8 +228,7 @@ base::Result<SceneResult> sweep(const RecordedFrame& frame, const SweepOptions& 
     auto judged = judge_recorded(frames.back(), *stage);
     if (!judged) return tl::make_unexpected(judged.error());
     if (frames.back().depth && judged->polygons_judged == 0) {
-      result.skipped.push_back(std::string(axis->name) + " " + name +
-                               ": no polygon of the frame carries depth");
+      without_depth.append(without_depth.empty() ? "" : ", ").append(name);
       continue;
     }
     Row row;
@@ -236,13 +242,18 @@ base::Result<SceneResult> sweep(const RecordedFrame& frame, const SweepOptions& 
     result.rows.push_back(std::move(row));
     stages.push_back(std::move(stage));
   }
-  std::vector<std::vector<double>> times(stages.size());
+  if (!without_depth.empty())
+    result.skipped.push_back(std::string(axis->name) + " " + without_depth +
+                             ": no polygon of the frame carries depth");
+  std::vector<std::vector<double>> times(stages.size()), cpu_times(stages.size()), ratios(stages.size());
   const std::size_t steps = stages.size() * static_cast<std::size_t>(options.rounds);
   std::size_t done = 0;
   const double begin = base::now_ms();
   for (int round = 0; round < options.rounds && !stopped(); ++round) {
     for (std::size_t n = 0; n < stages.size() && !stopped(); ++n) {
       times[n].push_back(stages[n]->draw(frame.pieces).value_or(0));
+      cpu_times[n].push_back(stages[n]->cpu_ms());
+      if (stages[0]->cpu_ms() > 0) ratios[n].push_back(stages[n]->cpu_ms() / stages[0]->cpu_ms());
       const double taken = (base::now_ms() - begin) / 1000 / static_cast<double>(++done);
       if (options.progress) options.progress(done, steps, taken * static_cast<double>(steps - done));
     }
@@ -253,6 +264,8 @@ base::Result<SceneResult> sweep(const RecordedFrame& frame, const SweepOptions& 
     Row& row = result.rows[n];
     if (times[n].empty()) continue;
     row.ms = row.stages.raster = median(times[n]);
+    row.cpu_ms = median(cpu_times[n]);
+    if (!ratios[n].empty()) row.ratio = median(ratios[n]);
     row.spread = spread(times[n]);
     row.difference = heat_map(row.picture, result.reference);
     row.errors.colour_rms = rms(row.picture, result.reference);

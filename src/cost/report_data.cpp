@@ -188,6 +188,10 @@ std::string to_text(const Report& report) {
     for (const auto& axis : axes()) {
       if (std::ranges::none_of(scene.rows, [&](const Row& row) { return row.axis == &axis; })) continue;
       for (const auto direction : {Direction::up, Direction::down}) {
+        if (std::ranges::none_of(scene.rows, [&](const Row& row) {
+              return row.axis == &axis && row.direction == direction && !row.setting.empty();
+            }))
+          continue;
         text += "\n " + std::string(axis.name) +
                 (direction == Direction::up ? ", up from the console" : ", down from the most accurate") +
                 "\n  " + padded("setting", 18, false) + padded("ms", 9) + padded("cpu", 9) +
@@ -195,7 +199,7 @@ std::string to_text(const Report& report) {
                 padded("PSNR", 8) + padded("SSIM", 9) + "   error: " + info(axis.measure).name() + "\n";
         add_rows(text, scene, axis, direction);
       }
-      text += "  " + sentence(scene, axis) + "\n";
+      if (const auto told = sentence(scene, axis); !told.empty()) text += "  " + told + "\n";
     }
     const auto front = front_of(scene.rows);
     if (!front.empty()) {

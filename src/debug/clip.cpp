@@ -6,99 +6,15 @@
 #include <span>
 #include <utility>
 
+#include "debug/item_cutter.h"
 #include "debug/timeline.h"
-#include "ot/command_stream.h"
 #include "ot/describe.h"
-#include "ot/gp1.h"
 #include "ot/walker.h"
 
 namespace debug {
 namespace {
 
 bool is_annotation(std::uint32_t word) { return ot::gp0::command_of(word) == ot::gp0::Command::annotation; }
-
-/// Cuts words into items.
-class Cutter {
- public:
-  explicit Cutter(std::vector<Item>& items) : items_(items) {}
-
-  /// Where the words to come are from.
-  void set_node(std::uint32_t address, std::uint32_t bucket, std::string origin) {
-    address_ = address;
-    bucket_ = bucket;
-    origin_ = std::move(origin);
-  }
-
-  /// Words that end a command of which the beginning is not known. `counts`: the GPU begins to obey it here.
-  void rest(std::span<const std::uint32_t> words, bool counts) {
-    if (items_.empty() || !items_.back().is_rest) {
-      const bool is_first =
-          std::none_of(items_.begin(), items_.end(), [](const auto& i) { return i.is_rest; });
-      items_.push_back({.number = counts && is_first ? ++count_ : 0, .is_rest = true});
-    }
-    auto& all = items_.back().words;
-    all.insert(all.end(), words.begin(), words.end());
-  }
-
-  void gp0(std::span<const std::uint32_t> words) {
-    for (std::size_t n = 0; n < words.size(); ++n) {
-      if (const auto pixels = stream_.skip_pixels(words.size() - n); pixels != 0) {
-        const auto from = words.begin() + static_cast<std::ptrdiff_t>(n);
-        now_.words.insert(now_.words.end(), from, from + static_cast<std::ptrdiff_t>(pixels));
-        n += pixels;
-        if (n == words.size()) return;
-      }
-      take(words[n]);
-    }
-  }
-
-  void gp1(std::uint32_t word) {
-    cut();
-    if (ot::gp1::aborts_command(word)) {
-      stream_.abort();
-      now_ = {};
-    }
-    Item item{.number = ++count_, .is_control = true};
-    item.words = {word};
-    items_.push_back(std::move(item));
-  }
-
-  void finish() { cut(); }
-
- private:
-  void take(std::uint32_t word) {
-    if (now_.words.empty() && !now_.is_rest) {
-      now_.address = address_;
-      now_.bucket = bucket_;
-      now_.origin = origin_;
-    }
-    now_.words.push_back(word);
-    const bool is_whole = stream_.take(word);
-    if (stream_.command() == ot::gp0::Command::annotation) return;
-    if (begins(is_whole)) now_.number = ++count_;
-    if (!is_whole) return;
-    items_.push_back(std::exchange(now_, {}));
-  }
-  // When the GPU begins to obey: an upload when its size is known, a polyline with its first segment.
-  [[nodiscard]] bool begins(bool is_whole) const {
-    if (stream_.command() == ot::gp0::Command::upload) return stream_.length() == 3;
-    if (stream_.command() == ot::gp0::Command::polyline) return stream_.length() == stream_.needed();
-    return is_whole;
-  }
-  // What there is of the command becomes an item, and the rest of it another one.
-  void cut() {
-    if (now_.words.empty()) return;
-    Item rest{.number = now_.number, .is_rest = true, .bucket = now_.bucket, .address = now_.address};
-    rest.origin = now_.origin;
-    items_.push_back(std::exchange(now_, std::move(rest)));
-  }
-
-  std::vector<Item>& items_;
-  ot::CommandStream stream_;
-  Item now_;
-  std::uint32_t count_ = 0, address_ = 0, bucket_ = gpu::no_bucket;
-  std::string origin_;
-};
 
 /// All of VRAM as one upload.
 std::vector<std::uint32_t> upload_of(const gpu::Vram& vram) {
@@ -158,7 +74,7 @@ std::string Item::text() const {
 
 std::vector<Item> items_of(const std::vector<Sent>& sent) {
   std::vector<Item> items;
-  Cutter cutter(items);
+  ItemCutter cutter(items);
   for (const auto& one : sent) {
     if (one.is_control) {
       for (const auto word : one.words) cutter.gp1(word);
@@ -189,7 +105,7 @@ Clip clip_of(Timeline& timeline, std::uint64_t frame) {
   const Place begin = first == commands.end() ? Place{where.end_packet, 0}
                       : is_late               ? first->end
                                               : first->begin;
-  Cutter cutter(clip.items);
+  ItemCutter cutter(clip.items);
   for (std::size_t n = where.first_packet; n < where.end_packet; ++n) {
     const auto& packet = dump.packets[n];
     const auto words = dump.payload(packet);
@@ -217,7 +133,7 @@ Clip clip_of_list(const ot::MainRam& ram, std::uint32_t head, const std::optiona
   clip.buckets = table ? table->length : 0;
   clip.lint = inspect::lint_list(ram, head, table);
   const auto walked = ot::validate(ram, head);
-  Cutter cutter(clip.items);
+  ItemCutter cutter(clip.items);
   std::uint32_t bucket = gpu::no_bucket;
   ot::send_nodes(ram.words(), head, walked.nodes,
                  [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "gpu/number.h"
 #include "inspect/lint.h"
 #include "ot/gp0.h"
 
@@ -52,6 +53,12 @@ void FrameView::draw() {
                  first_draws_[item] = static_cast<std::uint32_t>(trace_.draws.size());
                }});
   first_draws_.back() = static_cast<std::uint32_t>(trace_.draws.size());
+  // A command that was moved, and those between, keep the numbers they were sent with.
+  for (std::size_t i = 0; i < edited_.clip.items.size(); ++i) {
+    const auto number = edited_.clip.items[i].number;
+    for (auto d = first_draws_[i]; d < first_draws_[i + 1]; ++d)
+      trace_.draws[d].command_number = number == 0 ? gpu::going_on : number - 1;
+  }
   make_rows();
   make_groups();
 }

@@ -68,7 +68,8 @@ class Scanner {
   ot::CommandStream& stream_;
 };
 
-void FrameIndex::extend(const dump::Dump& dump, bool is_all, bool drops_rest, const dump::Frames* frames) {
+void FrameIndex::extend(const dump::Dump& dump, const dump::Frames& frames, dump::Frames::Rest rest) {
+  using Rest = dump::Frames::Rest;
   if (is_all_) return;
   Scanner scanner(now_);
   const auto end_frame = [&](std::size_t end) {
@@ -77,7 +78,7 @@ void FrameIndex::extend(const dump::Dump& dump, bool is_all, bool drops_rest, co
     next_ = {.first_packet = end, .drawing_before = drawings_};
     if (now_.stream.is_open()) open_.emplace(frames_.size(), now_);
   };
-  for (; packets_ < dump.packets.size(); ++packets_) {
+  for (; packets_ < frames.known(); ++packets_) {
     scanner.packet(
         dump, packets_,
         [&](const Command& command) {
@@ -85,10 +86,17 @@ void FrameIndex::extend(const dump::Dump& dump, bool is_all, bool drops_rest, co
           drawings_ += command.drawing;
         },
         [](Place) {});
-    if (ends_frame(dump, packets_, frames)) end_frame(packets_ + 1);
+    if (frames.ends_with(packets_)) end_frame(packets_ + 1);
   }
-  is_all_ = is_all;
-  if (is_all && !drops_rest && (next_.commands != 0 || frames_.empty())) end_frame(packets_);
+  is_all_ = rest != Rest::to_come;
+  if (rest != Rest::nothing) return;
+  if (!frames_.empty() && frames.count() == frames_.size() && frames.end(frames.count()) == packets_) {
+    // What came after the last end draws nothing, and is the last frame's.
+    frames_.back().end_packet = packets_;
+    frames_.back().commands += next_.commands;
+  } else if (next_.commands != 0 || frames_.empty()) {
+    end_frame(packets_);
+  }
 }
 
 std::vector<Command> FrameIndex::commands(const dump::Dump& dump, std::size_t index) const {

@@ -23,13 +23,6 @@ struct Place {
   auto operator<=>(const Place&) const = default;
 };
 
-/// Whether a frame ends with packet `number`; `frames`: where they do, nullptr: at every VSync.
-inline bool ends_frame(const dump::Dump& dump, std::size_t number, const dump::Frames* frames) {
-  if (frames == nullptr) return dump.packets[number].type == dump::PacketType::vsync;
-  const auto frame = frames->of_packet(number);
-  return frame <= frames->count() && frames->end(frame) == number + 1;
-}
-
 struct Frame {
   std::size_t first_packet = 0, end_packet = 0;  ///< the packet that ends it is the last of them
   std::uint32_t commands = 0;
@@ -48,10 +41,10 @@ struct Command {
 /// Finds frames and their commands in packets that may still be coming.
 class FrameIndex {
  public:
-  /// Takes the packets that have come since the last call. `is_all`: no others will come, and what is behind
-  /// the last end of a frame is a frame of its own, if there are commands in it or if it is the only one.
-  /// `frames`: where they end, nullptr: at every VSync.
-  void extend(const dump::Dump& dump, bool is_all, bool drops_rest, const dump::Frames* frames = nullptr);
+  /// Takes the packets that have come since the last call; `frames` has taken them, too, and ends none of
+  /// those before elsewhere. With Rest::nothing what is behind the last end is a frame of its own, if there
+  /// are commands in it or if it is the only one.
+  void extend(const dump::Dump& dump, const dump::Frames& frames, dump::Frames::Rest rest);
 
   [[nodiscard]] const std::vector<Frame>& frames() const { return frames_; }
   /// The commands of frame `index`, from 0.

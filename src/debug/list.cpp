@@ -62,22 +62,6 @@ bool is_port(const dump::Packet& packet) {
   return packet.type == PacketType::port0 || packet.type == PacketType::port1;
 }
 
-/// The frames that a listing comes to, and how many commands of the last of them.
-struct Range {
-  std::uint64_t frames;
-  std::uint64_t last_commands = whole_frame;
-
-  Range(const Timeline& timeline, const ListEnd& end) : frames(timeline.frames()) {
-    if (end.frame) frames = std::min(frames, *end.frame);
-    if (!end.number || end.number->frame > frames) return;
-    frames = end.number->frame;
-    last_commands = end.number->command;
-  }
-  [[nodiscard]] std::uint64_t commands(std::uint64_t frame) const {
-    return frame == frames ? last_commands : whole_frame;
-  }
-};
-
 /// Lists the commands of frames, one after the other, and the packets among them.
 class Lister {
  public:
@@ -183,31 +167,30 @@ Json command_json(const Timeline& timeline, std::uint64_t frame, const Command& 
 
 }  // namespace
 
-void list_text(Timeline& timeline, const ListEnd& end, const std::function<void(const std::string&)>& line) {
-  const Range range(timeline, end);
+void list_text(Timeline& timeline, const Number& end, const std::function<void(const std::string&)>& line) {
   Lister lister(timeline, line);
-  for (std::uint64_t frame = 1; frame <= range.frames; ++frame) lister.frame(frame, range.commands(frame));
+  for (std::uint64_t frame = 1; frame <= end.frame; ++frame)
+    lister.frame(frame, frame == end.frame ? end.command : whole_frame);
 }
 
-void list_json(Timeline& timeline, const std::string& name, const ListEnd& end,
+void list_json(Timeline& timeline, const std::string& name, const Number& end,
                const std::function<void(const std::string&)>& write,
                const std::function<bool()>& keep_going) {
-  const Range range(timeline, end);
   Json head{{"schema", "otter.list/1"},    {"scene", name},
-            {"frame", range.frames},       {"width", gpu::Vram::width},
+            {"frame", end.frame},          {"width", gpu::Vram::width},
             {"height", gpu::Vram::height}, {"frames", timeline.frames()}};
   auto text = to_text(head);
   text.resize(text.rfind('\n', text.size() - 2));  // before the closing brace
   write(text + ",\n  \"commands\": [");
-  Player player(timeline.recording(), timeline.options());
+  Player player(timeline.recording(), timeline.frame_ends(), timeline.options());
   gpu::Trace trace;
   const char* separator = "\n    ";
-  for (std::uint64_t frame = 1; frame <= range.frames; ++frame) {
+  for (std::uint64_t frame = 1; frame <= end.frame; ++frame) {
     if (keep_going && !keep_going()) break;
     const auto& commands = timeline.commands(frame);
     const auto notes = note_frame(commands, timeline.frame(frame).end_packet, player, trace);
     for (const Command& command : commands) {
-      if (command.number > range.commands(frame)) break;
+      if (frame == end.frame && command.number > end.command) break;
       write(separator + one_line(command_json(timeline, frame, command, notes)));
       separator = ",\n    ";
     }

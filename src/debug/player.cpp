@@ -13,8 +13,8 @@ constexpr std::uint32_t piece_words = 512;  // between two questions whether to 
 
 }  // namespace
 
-Player::Player(const Recording& recording, const DrawOptions& options)
-    : recording_(recording), options_(options) {
+Player::Player(const Recording& recording, const dump::Frames& frames, const DrawOptions& options)
+    : recording_(recording), frames_(frames), options_(options) {
   gpu_.set_depth(options.depth);
   if (!recording.start().empty()) {
     [[maybe_unused]] const auto fault = gpu_.load(recording.start());
@@ -58,7 +58,7 @@ void Player::send(std::size_t number, std::uint32_t first, std::uint32_t end) {
     default:
       break;
   }
-  if (ends_frame(recording_.dump(), number, options_.frames.get())) end_frame();
+  if (frames_.ends_with(number)) end_frame();
   if (packet.type == PacketType::vsync) gpu_.next_field();
 }
 

@@ -2,7 +2,6 @@
 // A recording on its way into a GPU, from place to place.
 
 #include <functional>
-#include <memory>
 #include <optional>
 
 #include "debug/frames.h"
@@ -14,16 +13,16 @@ namespace debug {
 
 /// How a recording is drawn: nothing of it is the console.
 struct DrawOptions {
-  std::optional<gpu::DepthOptions> depth{};      ///< a z-buffer, fed by annotation words
-  std::shared_ptr<const dump::Frames> frames{};  ///< where frames end; nullptr: at every VSync
+  std::optional<gpu::DepthOptions> depth{};  ///< a z-buffer, fed by annotation words
   bool depth_of_bucket = false;  ///< polygons without depth get that of their bucket (RAM lists with a table)
   bool operator==(const DrawOptions&) const = default;
 };
 
 class Player {
  public:
-  /// At the beginning. `recording` must outlive it; `options` may differ from player to player.
-  Player(const Recording& recording, const DrawOptions& options);
+  /// At the beginning. `recording` and `frames`, where its frames end, must outlive it; `options` may differ
+  /// from player to player.
+  Player(const Recording& recording, const dump::Frames& frames, const DrawOptions& options);
 
   [[nodiscard]] const gpu::Gpu& gpu() const { return gpu_; }
   [[nodiscard]] gpu::Gpu& gpu() { return gpu_; }
@@ -48,6 +47,7 @@ class Player {
   void begin_frame();
 
   const Recording& recording_;
+  const dump::Frames& frames_;
   DrawOptions options_;
   gpu::Gpu gpu_;
   Place place_;

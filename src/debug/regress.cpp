@@ -60,7 +60,7 @@ base::Result<FrameHashes> parse_hashes(const Json& json) {
 
 }  // namespace
 
-FrameHashes hash_frames(Recording& recording, const std::function<bool()>& keep_going) {
+FrameHashes hash_frames(Recording& recording, dump::FrameBy by, const std::function<bool()>& keep_going) {
   FrameHashes hashes;
   while (recording.read_some(std::size_t{1} << 20)) {
     if (keep_going && !keep_going()) return hashes;
@@ -69,9 +69,12 @@ FrameHashes hash_frames(Recording& recording, const std::function<bool()>& keep_
   const auto& fault = recording.fault();
   const auto at = fault.find(": byte ");
   hashes.fault = at == std::string::npos ? fault : fault.substr(at + 2);
+  const auto rest = fault.empty() ? dump::Frames::Rest::nothing : dump::Frames::Rest::lost;
+  dump::Frames frames(by);
+  frames.extend(recording.dump(), rest);
   FrameIndex index;
-  index.extend(recording.dump(), true, !fault.empty());
-  Player player(recording, {});
+  index.extend(recording.dump(), frames, rest);
+  Player player(recording, frames, {});
   for (const Frame& frame : index.frames()) {
     if (keep_going && !keep_going()) break;
     player.run({frame.end_packet, 0});

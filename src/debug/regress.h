@@ -11,6 +11,7 @@
 
 #include "base/result.h"
 #include "debug/recording.h"
+#include "dump/frames.h"
 
 namespace debug {
 
@@ -22,7 +23,8 @@ struct FrameHashes {
 };
 
 /// Draws all of it. `keep_going` is asked at every frame; false ends it there.
-FrameHashes hash_frames(Recording& recording, const std::function<bool()>& keep_going = {});
+FrameHashes hash_frames(Recording& recording, dump::FrameBy by = dump::FrameBy::display,
+                        const std::function<bool()>& keep_going = {});
 
 /// Of many recordings, by name.
 using HashesByName = std::map<std::string, FrameHashes>;

@@ -10,7 +10,7 @@ namespace debug {
 namespace {
 
 constexpr double first_spacing_ms = 4;
-constexpr std::size_t read_bytes = std::size_t{1} << 18;
+constexpr std::size_t read_bytes = std::size_t{1} << 14;  // packed they may hold thousands of times as many
 constexpr std::uint64_t least_for_states = std::uint64_t{64} << 20;
 
 }  // namespace
@@ -24,31 +24,37 @@ Timeline::Timeline(Recording recording, const DrawOptions& options, std::uint64_
 Timeline::~Timeline() = default;
 
 void Timeline::end_frames_by(dump::FrameBy by) {
-  assert(is_read());
-  if (by == dump::FrameBy::vsync && frames_ == nullptr) return;  // as they do
-  frames_ = by == dump::FrameBy::vsync ? nullptr : std::make_shared<const dump::Frames>(dump(), by);
-  index_ = {};
-  commands_of_ = 0;
+  if (by == frames_.by()) return;
+  frames_ = dump::Frames(by);
+  number_anew();
   find_frames();
-  set_options(options_);
 }
 
 void Timeline::set_options(const DrawOptions& options) {
   options_ = options;
-  options_.frames = frames_;
   keyframes_.clear();
   spacing_ms_ = first_spacing_ms;
   since_state_ms_ = 0;
-  indexer_ = std::make_unique<Player>(recording_, options_);
-  player_ = std::make_unique<Player>(recording_, options_);
+  indexer_ = std::make_unique<Player>(recording_, frames_, options_);
+  player_ = std::make_unique<Player>(recording_, frames_, options_);
   player_can_go_on_ = true;
   keep_state();
 }
 
 void Timeline::find_frames() {
-  const bool is_all = recording_.is_read();
-  const bool drops_rest = !recording_.fault().empty();
-  index_.extend(recording_.dump(), is_all, drops_rest, frames_.get());
+  using Rest = dump::Frames::Rest;
+  const Rest rest = !recording_.is_read()        ? Rest::to_come
+                    : recording_.fault().empty() ? Rest::nothing
+                                                 : Rest::lost;
+  if (!frames_.extend(recording_.dump(), rest)) number_anew();
+  index_.extend(recording_.dump(), frames_, rest);
+}
+
+/// Frames end elsewhere: states along the way do not fit.
+void Timeline::number_anew() {
+  index_ = {};
+  commands_of_ = 0;
+  set_options(options_);
 }
 
 bool Timeline::index_some(double milliseconds) {
@@ -73,7 +79,7 @@ base::Result<void> Timeline::read_first_frame() {
 
 base::Result<void> Timeline::read_all(const std::function<bool(double)>& keep_going) {
   while (!recording_.is_read()) {
-    recording_.read_some(4 * read_bytes);
+    recording_.read_some(64 * read_bytes);
     find_frames();
     if (keep_going && !keep_going(recording_.read_progress())) break;
   }
@@ -117,14 +123,14 @@ void Timeline::keep_states(Place until, double deadline_ms) {
 }
 
 void Timeline::keep_state() {
-  const double begun = base::now_ms();
+  const double begun = base::cpu_ms();
   keyframes_.add(indexer_->place(), indexer_->is_in_frame(), indexer_->gpu().save());
   since_state_ms_ = 0;
   while (keyframes_.bytes() > allowance() && keyframes_.size() >= 4) {
     keyframes_.thin();
     spacing_ms_ *= 2;
   }
-  keeping_ms_ = base::now_ms() - begun;
+  keeping_ms_ = base::cpu_ms() - begun;
 }
 
 const std::vector<Command>& Timeline::commands(std::uint64_t frame) {
@@ -144,6 +150,18 @@ std::optional<Number> Timeline::find_drawing(std::uint64_t drawing) {
     if (at->drawing_before >= drawing) break;
   }
   return std::nullopt;
+}
+
+Number Timeline::at_vsync(std::uint64_t vsync) {
+  const auto& packets = dump().packets;
+  std::size_t end = 0;
+  while (vsync > 0)
+    if (packets[end++].type == dump::PacketType::vsync) --vsync;
+  const auto frame = frame_at({end - 1, 0});
+  if (this->frame(frame).end_packet == end) return {frame, whole_frame};
+  const auto& all = commands(frame);
+  const auto after = std::ranges::upper_bound(all, Place{end, 0}, {}, &Command::end);
+  return {frame, static_cast<std::uint64_t>(after - all.begin())};
 }
 
 std::uint64_t Timeline::frame_at(Place place) const {

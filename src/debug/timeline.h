@@ -19,6 +19,7 @@
 #include "debug/number.h"
 #include "debug/player.h"
 #include "debug/recording.h"
+#include "dump/frames.h"
 #include "gpu/gpu.h"
 #include "gpu/trace.h"
 
@@ -58,9 +59,11 @@ class Timeline {
   /// Reads everything. `keep_going` is asked now and then, and told how much is done, 0..1.
   /// Error: as read_first_frame().
   base::Result<void> read_all(const std::function<bool(double)>& keep_going = {});
-  /// After read_all(): frames end where the display shows another buffer, or at every VSync, as they do until
-  /// this is asked for; numbers change with it.
+  /// Frames end so from now on, as they did by the display until then; numbers change with it.
   void end_frames_by(dump::FrameBy by);
+  /// Numbers stay as they are while more is read. Else frames by the display may be fewer when a second
+  /// buffer is shown for the first time.
+  [[nodiscard]] bool is_numbered() const { return frames_.is_settled(); }
   [[nodiscard]] bool is_read() const { return recording_.is_read(); }
   [[nodiscard]] bool is_indexed() const;
   /// 0..1, of reading and of keeping states.
@@ -72,6 +75,8 @@ class Timeline {
 
   [[nodiscard]] const Recording& recording() const { return recording_; }
   [[nodiscard]] const dump::Dump& dump() const { return recording_.dump(); }
+  /// Where its frames end, as far as it was read.
+  [[nodiscard]] const dump::Frames& frame_ends() const { return frames_; }
   /// Frames known so far; they have the numbers 1..frames().
   [[nodiscard]] std::uint64_t frames() const { return index_.frames().size(); }
   [[nodiscard]] const Frame& frame(std::uint64_t number) const { return index_.frames()[number - 1]; }
@@ -86,6 +91,9 @@ class Timeline {
   const std::vector<Command>& commands(std::uint64_t frame);
   /// Where a drawing command is, counted from 1 over all frames known; nothing: there are fewer.
   std::optional<Number> find_drawing(std::uint64_t drawing);
+  /// The last command that was whole at VSync packet number `vsync`, 1..dump().vsyncs; whole_frame where a
+  /// frame ends there.
+  Number at_vsync(std::uint64_t vsync);
   /// With the bucket, where there is one.
   [[nodiscard]] Number number_of(std::uint64_t frame, const Command& command) const;
   /// Where a primitive comes from, stable from frame to frame: the address of its packet ("801230C4h") for a
@@ -115,18 +123,19 @@ class Timeline {
   [[nodiscard]] Place place_of(const Number& number);
   [[nodiscard]] Place end_of_frames() const;
   void find_frames();
+  void number_anew();
   void keep_states(Place until, double deadline_ms);
   void keep_state();
   void go_to(Place place);
 
   Recording recording_;
-  std::shared_ptr<const dump::Frames> frames_;  // where frames end; nullptr: at every VSync
+  dump::Frames frames_{dump::FrameBy::display};
   DrawOptions options_;
   std::uint64_t limit_bytes_;
   FrameIndex index_;
   Keyframes keyframes_;
   double spacing_ms_;                // between two states, of drawing
-  double keeping_ms_ = 0;            // that the last one took to be kept
+  double keeping_ms_ = 0;            // of processor time, that keeping the last one took
   double since_state_ms_ = 0;        // drawn since the last one
   std::unique_ptr<Player> indexer_;  // as far as states are kept
   std::unique_ptr<Player> player_;   // where the last seek went

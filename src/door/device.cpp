@@ -2,13 +2,14 @@
 
 #include <utility>
 
+#include "door/lint.h"
 #include "ot/gp1.h"
 
 namespace door {
 
 /// Words are looked at only when something asks for it.
 void Device::choose_path() {
-  is_plain_ = !has_vertices_ && !recorder_ && !frames_.has_canvas();
+  is_plain_ = !has_vertices_ && !recorder_ && !tap_ && !frames_.has_canvas();
   annotator_.follow(frames_.has_canvas());
 }
 
@@ -19,12 +20,23 @@ void Device::gp0_watched(std::span<const std::uint32_t> words) {
 
 void Device::send(std::span<const std::uint32_t> words) {
   frames_.before_words(gpu_);
-  // A recording that waits begins at the first word of a command.
-  while (recorder_ && !words.empty() && !recorder_->catch_up(gpu_)) {
-    gpu_.gp0(words.first(1));
+  // A recording that waits, or a frame that is watched, begins at the first word of a command.
+  const auto all_have_begun = [this] {
+    const bool records = !recorder_ || recorder_->catch_up(gpu_);
+    const bool watches = !tap_ || tap_->catch_up(gpu_);
+    return records && watches;
+  };
+  while (!words.empty() && !all_have_begun()) {
+    send_run(words.first(1));
     words = words.subspan(1);
   }
+  send_run(words);
+}
+
+/// Who has not begun leaves them out.
+void Device::send_run(std::span<const std::uint32_t> words) {
   if (recorder_) recorder_->gp0(words);
+  if (tap_) tap_->gp0(words);
   gpu_.gp0(words);
 }
 
@@ -37,6 +49,7 @@ void Device::release_held() {
 void Device::gp1(std::uint32_t word) {
   release_held();
   if (recorder_ && recorder_->catch_up(gpu_)) recorder_->gp1(word);
+  if (tap_) tap_->gp1(word, gpu_);
   gpu_.gp1(word);
   if (ot::gp1::aborts_command(word)) annotator_.abort();
 }
@@ -62,6 +75,11 @@ void Device::vblank() {
   release_held();
   annotator_.end_list();
   if (recorder_ && recorder_->catch_up(gpu_)) recorder_->vblank();
+  if (tap_) {
+    tap_->set_doubtful(annotator_.shares().doubtful);
+    tap_->set_recording(is_recording());
+    tap_->vblank();
+  }
   frames_.vblank(gpu_);
   if (trace_) trace_->clear();
 }
@@ -71,8 +89,14 @@ ListResult Device::send_list(std::span<const std::uint32_t> ram, std::uint32_t h
   ListResult result;
   result.walk = ot::validate(ram, head, max_nodes);
   result.tables = ot::find_tables(ram, head, result.walk.nodes);
+  if (tap_) {
+    tap_->catch_up(gpu_);
+    auto faults = tap_->is_collecting() ? lint(ram, head) : std::vector<inspect::LintItem>{};
+    tap_->begin_list(result.tables, std::move(faults));
+  }
   ot::send_nodes(ram, head, result.walk.nodes,
                  [&](std::uint32_t tag, std::span<const std::uint32_t> payload) {
+                   if (tap_) tap_->set_tag(tag);
                    if (payload.empty()) {
                      if (trace_) trace_->bucket = bucket_of(result.tables, tag).value_or(gpu::no_bucket);
                      return;
@@ -80,6 +104,10 @@ ListResult Device::send_list(std::span<const std::uint32_t> ram, std::uint32_t h
                    gp0(payload);
                  });
   if (trace_) trace_->bucket = gpu::no_bucket;
+  if (tap_) {
+    release_held();
+    tap_->end_list();
+  }
   annotator_.end_list();
   return result;
 }
@@ -100,6 +128,7 @@ std::optional<gpu::StateError> Device::load(std::span<const std::byte> state) {
   annotator_.forget();
   frames_.jump(gpu_);
   if (recorder_) recorder_->jump();
+  if (tap_) tap_->jump();
   return std::nullopt;
 }
 
@@ -123,6 +152,18 @@ base::Result<void> Device::end_recording() {
   recorder_.reset();
   choose_path();
   return written;
+}
+
+void Device::watch(std::function<bool()> wants, std::function<void(LiveFrame)> take) {
+  release_held();
+  tap_.emplace(std::move(wants), std::move(take));
+  choose_path();
+}
+
+void Device::stop_watching() {
+  release_held();
+  tap_.reset();
+  choose_path();
 }
 
 void Device::trace(TraceMode mode) {

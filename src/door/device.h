@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "door/annotator.h"
+#include "door/frame_tap.h"
 #include "door/frames.h"
 #include "door/recorder.h"
 #include "gpu/gpu.h"
@@ -33,6 +35,8 @@ class Device {
     if (is_plain_) return gpu_.gp0(words);
     gp0_watched(words);
   }
+  /// Words go to the GPU and to nobody else.
+  [[nodiscard]] bool is_plain() const { return is_plain_; }
   void gp1(std::uint32_t word);
   std::uint32_t read();
   void read(std::span<std::uint32_t> words);
@@ -43,6 +47,7 @@ class Device {
   ListResult send_list(std::span<const std::uint32_t> ram, std::uint32_t head, std::uint32_t max_nodes);
 
   void vertex(std::uint32_t xy, std::uint32_t z, std::uint8_t fx, std::uint8_t fy);
+  [[nodiscard]] bool has_vertices() const { return has_vertices_; }
   [[nodiscard]] const DepthShares& depth() const { return annotator_.shares(); }
 
   [[nodiscard]] gpu::Gpu& gpu() { return gpu_; }
@@ -60,6 +65,12 @@ class Device {
   /// Error: nothing is being recorded, or the file cannot be written.
   base::Result<void> end_recording();
 
+  /// Hands frames to somebody who looks on, until stop_watching().
+  void watch(std::function<bool()> wants, std::function<void(LiveFrame)> take);
+  void stop_watching();
+  /// Of watch(): frames handed over so far.
+  [[nodiscard]] std::uint64_t watched_frames() const { return tap_ ? tap_->frames() : 0; }
+
   void trace(TraceMode mode);
   /// nullptr while nothing is traced.
   [[nodiscard]] const gpu::Trace* trace() const { return trace_.get(); }
@@ -70,6 +81,7 @@ class Device {
  private:
   void gp0_watched(std::span<const std::uint32_t> words);
   void send(std::span<const std::uint32_t> words);
+  void send_run(std::span<const std::uint32_t> words);
   void release_held();
   void choose_path();
 
@@ -77,6 +89,7 @@ class Device {
   Annotator annotator_;
   Frames frames_;
   std::optional<Recorder> recorder_;
+  std::optional<FrameTap> tap_;
   std::unique_ptr<gpu::Trace> trace_;
   std::unique_ptr<gpu::PixelCounts> counts_;
   bool is_plain_ = true;  // nothing but the GPU wants the words

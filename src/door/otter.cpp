@@ -3,12 +3,15 @@
 #include "otter/otter.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
+#include <cstdio>
 #include <cstring>
 #include <exception>
 #include <new>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -16,11 +19,28 @@
 #include "door/device.h"
 #include "door/knobs.h"
 #include "door/lint.h"
+#include "ot/gp0.h"
 
 struct otter {
   door::Device device;
   std::string error;
   std::vector<std::string> lint;
+  // The words of a command that comes one by one, while nothing but the GPU wants them: it does nothing
+  // before the command is whole, and whatever else is called sends them first.
+  std::array<std::uint32_t, 16> begun{};
+  std::size_t begun_count = 0, needed = 0;
+
+  void send_begun() {
+    if (begun_count != 0) device.gp0(std::span(begun).first(std::exchange(begun_count, 0)));
+  }
+  void take(std::uint32_t word) {
+    if (begun_count == 0) {
+      needed = device.is_plain() && device.gpu().is_between_commands() ? ot::gp0::command_words(word) : 1;
+      if (needed == 1 || needed > begun.size()) return device.gp0(std::span(&word, 1));
+    }
+    begun[begun_count++] = word;
+    if (begun_count == needed) send_begun();
+  }
 };
 
 namespace {
@@ -44,16 +64,34 @@ int fail(const otter* gpu, int code, std::string_view text) noexcept {
   return code;
 }
 
-/// Runs `body`, which returns a code; what it throws becomes one.
-template <class Handle, class Body>
-int guarded(Handle* gpu, const char* function, Body&& body) noexcept {
+// Apart from what is called word by word: inlined there, they would cost every call their registers.
+[[gnu::cold, gnu::noinline]] int no_handle(const char* function) noexcept {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "%s: the handle is null", function);
+  return fail(nullptr, OTTER_NO_HANDLE, text.data());
+}
+/// In a catch clause: what was thrown as a code.
+[[gnu::cold, gnu::noinline]] int thrown(const otter* gpu) noexcept {
   try {
-    if (gpu == nullptr) return fail(nullptr, OTTER_NO_HANDLE, std::string(function) + ": the handle is null");
-    return body(*gpu);
+    throw;
   } catch (const std::bad_alloc&) {
     return fail(gpu, OTTER_NO_MEMORY, "no memory is left");
   } catch (const std::exception& e) {
     return fail(gpu, OTTER_NO_MEMORY, e.what());
+  } catch (...) {
+    return fail(gpu, OTTER_NO_MEMORY, "something was thrown");
+  }
+}
+
+/// Runs `body`, which returns a code; what it throws becomes one.
+template <class Handle, class Body>
+int guarded(Handle* gpu, const char* function, Body&& body) noexcept {
+  if (gpu == nullptr) return no_handle(function);
+  try {
+    if constexpr (!std::is_const_v<Handle>) gpu->send_begun();
+    return body(*gpu);
+  } catch (...) {
+    return thrown(gpu);
   }
 }
 
@@ -135,10 +173,13 @@ int otter_gp0(otter* gpu, const uint32_t* words, size_t count) {
 }
 
 int otter_gp0_word(otter* gpu, uint32_t word) {
-  return guarded(gpu, "otter_gp0_word", [&](otter& o) {
-    o.device.gp0(std::span(&word, 1));
-    return int{OTTER_OK};
-  });
+  if (gpu == nullptr) return no_handle("otter_gp0_word");
+  try {
+    gpu->take(word);
+    return OTTER_OK;
+  } catch (...) {
+    return thrown(gpu);
+  }
 }
 
 int otter_gp1(otter* gpu, uint32_t word) {

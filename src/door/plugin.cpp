@@ -1,18 +1,19 @@
 // libotterGPU.so: the GPU of an emulator with the PSEmu-Pro plugin interface. Nothing is thrown across, and
-// no call needs another one before it. There is no window: what is shown goes to files (door/session.h).
+// no call needs another one before it. The window is a process of its own (door/window_process.h).
 //
 // Not modelled: time. Status bit 31 changes with every reading, for programs that poll it for lines.
-
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "door/session.h"
+#include "door/x11_keys.h"
+#include "dump/compression.h"
 
 namespace {
 
@@ -40,13 +41,20 @@ auto guarded(Body&& body) noexcept -> decltype(body()) {
   return decltype(body())();
 }
 
-/// What GPUfreeze hands over; other plugins keep the VRAM image in `vram` as it is.
+/// What GPUfreeze hands over: a version, the status, registers by their command number, VRAM. A state of ours
+/// has what other plugins look for, and behind the registers all the rest.
 struct Freeze {
   std::uint32_t version, status, control[256];
-  std::uint8_t vram[1024 * 1024 * 2];
+  std::uint8_t vram[1024 * 512 * 2];
 };
+static_assert(sizeof(Freeze) == 8 + 1024 + 1024 * 1024);
 constexpr long freeze_load = 0, freeze_save = 1;
-constexpr char state_magic[] = "OTTER-GPU-STATE";
+
+/// In `control`: a mark, how many bytes of the rest follow, and the rest: a saved state up to its VRAM, which
+/// ends it, packed.
+constexpr std::uint32_t rest_mark = 0x5254544f;
+constexpr std::size_t mark_at = 16, length_at = 17, rest_at = 18;
+constexpr std::size_t most_rest = (256 - rest_at) * 4;
 
 /// A GPU with a z-buffer saves more than there is room for: its frame is brought to an end elsewhere.
 std::vector<std::byte> state_without_depth(door::Device& device) {
@@ -60,23 +68,46 @@ std::vector<std::byte> state_without_depth(door::Device& device) {
 long save(Freeze& freeze) {
   door::Device& device = session().device();
   const auto state = state_without_depth(device);
-  if (state.size() > sizeof freeze.vram) return 0;
+  const auto rest =
+      dump::pack(std::span(state).first(state.size() - sizeof freeze.vram), dump::Compression::zstd);
+  if (rest.size() > most_rest) {
+    std::fprintf(stderr, "otter: the state has no room: nothing is saved\n");
+    return 0;
+  }
+  const gpu::Display& display = device.gpu().display();
+  std::memset(freeze.control, 0, sizeof freeze.control);
   freeze.version = 1;
   freeze.status = device.status();
-  std::memcpy(freeze.vram, state.data(), state.size());
+  freeze.control[3] = display.is_off ? 1 : 0;
+  freeze.control[5] = display.start;
+  freeze.control[6] = display.horizontal_range;
+  freeze.control[7] = display.vertical_range;
+  freeze.control[8] = display.mode;
+  freeze.control[mark_at] = rest_mark;
+  freeze.control[length_at] = static_cast<std::uint32_t>(rest.size());
+  std::memcpy(&freeze.control[rest_at], rest.data(), rest.size());
+  std::memcpy(freeze.vram, state.data() + state.size() - sizeof freeze.vram, sizeof freeze.vram);
   return 1;
+}
+
+long refuse(const std::string& why) {
+  std::fprintf(stderr, "otter: the saved state: %s\n", why.c_str());
+  return 0;
 }
 
 /// A state of ours, or another plugin's: VRAM and the display registers.
 long load(const Freeze& freeze) {
   door::Device& device = session().device();
-  const auto* bytes = reinterpret_cast<const std::byte*>(freeze.vram);
-  if (std::memcmp(freeze.vram, state_magic, sizeof state_magic) == 0) {
-    std::uint32_t size = 0;  // the sixth word of a state
-    for (std::size_t n = 4; n-- > 0;) size = size << 8 | freeze.vram[20 + n];
-    const auto error = device.load(std::span(bytes, std::min<std::size_t>(size, sizeof freeze.vram)));
-    if (error) std::fprintf(stderr, "otter: the saved state: %s\n", error->message.c_str());
-    return error ? 0 : 1;
+  const std::span vram(reinterpret_cast<const std::byte*>(freeze.vram), sizeof freeze.vram);
+  if (freeze.control[mark_at] == rest_mark) {
+    const std::size_t length = freeze.control[length_at];
+    if (length > most_rest) return refuse("its length is damaged");
+    const auto* packed = reinterpret_cast<const std::byte*>(&freeze.control[rest_at]);
+    auto state = dump::unpack({packed, length}, std::uint64_t{1} << 16);
+    if (!state) return refuse("it is damaged");
+    state->insert(state->end(), vram.begin(), vram.end());
+    const auto error = device.load(*state);
+    return error ? refuse(error->message) : 1;
   }
   device.gp1(0);
   for (const std::uint32_t n : {3U, 4U, 5U, 6U, 7U, 8U}) device.gp1(n << 24 | (freeze.control[n] & 0xffffff));
@@ -84,16 +115,6 @@ long load(const Freeze& freeze) {
   for (std::size_t i = 0; i < pixels.size(); ++i)
     pixels[i] = static_cast<std::uint16_t>(freeze.vram[2 * i] | freeze.vram[2 * i + 1] << 8);
   return 1;
-}
-
-/// The emulator reads the keyboard from the display that GPUopen hands over. Without X11 there is none.
-unsigned long open_display() {
-  static void* const library = dlopen("libX11.so.6", RTLD_NOW);
-  if (library == nullptr) return 0;
-  using Open = void* (*)(const char*);
-  const auto open = reinterpret_cast<Open>(dlsym(library, "XOpenDisplay"));
-  static void* const display = open != nullptr ? open(nullptr) : nullptr;
-  return reinterpret_cast<unsigned long>(display);
 }
 
 }  // namespace
@@ -117,14 +138,19 @@ long GPUshutdown() {
     return 0L;
   });
 }
-long GPUopen(unsigned long* display, char*, char*) {
+long GPUopen(unsigned long* display, char* caption, char*) {
   return guarded([&] {
-    session();
-    if (display != nullptr) *display = open_display();
+    if (display != nullptr) *display = door::open_key_display();
+    session().open_window(caption != nullptr ? caption : "");
     return 0L;
   });
 }
-long GPUclose() { return 0; }
+long GPUclose() {
+  return guarded([] {
+    if (session_place()) session_place()->close_window();
+    return 0L;
+  });
+}
 
 std::uint32_t GPUreadStatus() {
   return guarded([] {
@@ -188,9 +214,9 @@ void GPUmakeSnapshot() {
   guarded([] { session().snapshot(); });
 }
 void GPUkeypressed(int key) {
-  constexpr int f8 = 0xffc5;  // X11's keysym
   guarded([&] {
-    if (key == f8) session().toggle_recording();
+    // A window takes its keys itself.
+    if (key == static_cast<int>(door::keysym_f8) && !session().has_window()) session().toggle_recording();
   });
 }
 void GPUdisplayText(char* text) {
@@ -216,9 +242,20 @@ void GPUgetScreenPic(unsigned char* bgr) {
   });
 }
 
+// Who asks for these looks at the emulator's window; what there is to say goes where all else is said.
+long GPUconfigure() {
+  std::fputs(
+      "otter: knobs are set in the window (F2), the rest by variables of the environment (OTTER_...)\n",
+      stderr);
+  return 0;
+}
+void GPUabout() {
+  std::fputs(
+      "otter: a GPU to the bit, with its ordering tables, depths and pixels open to view (MIT licence)\n",
+      stderr);
+}
+
 // What the interface has and this plugin needs nothing for.
-long GPUconfigure() { return 0; }
-void GPUabout() {}
 long GPUtest() { return 0; }
 long GPUgetMode() { return 0; }
 void GPUsetMode(std::uint32_t) {}

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <sstream>
 #include <thread>
 #include <vector>
@@ -54,7 +55,7 @@ Session::Session() {
     if (last_field_ == 0) say("OTTER_FRAMES: \"" + frames + "\": expected a number of fields from 1");
   }
   set_knobs(environment("OTTER_KNOBS"));
-  is_limited_ = environment("OTTER_LIMIT") == "1";
+  if (const auto limit = environment("OTTER_LIMIT"); !limit.empty()) limit_ = limit == "1";
   if (const auto file = environment("OTTER_RECORD"); !file.empty()) device_.begin_recording(file);
 }
 
@@ -96,11 +97,114 @@ void Session::field() {
     std::fflush(stderr);
     std::_Exit(0);
   }
-  if (!is_limited_) return;
-  const std::chrono::microseconds length(device_.gpu().display().is_pal() ? 20000 : 16667);
-  const auto now = std::chrono::steady_clock::now();
+  if (window_) serve_window();
+  // One event a field: emulators look at the last one only, and a key that goes down and up between two looks
+  // would not have been typed.
+  if (!keys_.empty()) {
+    put_key(keys_.front());
+    keys_.pop_front();
+  }
+  pace();
+}
+
+/// No faster than is wanted. Who is late does not hurry after it.
+void Session::pace() {
+  if (is_fast_ || !limit_.value_or(window_ != nullptr)) return;
+  const bool is_pal = device_.gpu().display().is_pal();
+  const double rate = fields_per_second_ != 0 ? fields_per_second_ : is_pal ? 50 : 60;
+  using Clock = std::chrono::steady_clock;
+  const auto length = std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1 / rate));
+  const auto now = Clock::now();
   next_field_ = std::max(next_field_ + length, now - length);
-  std::this_thread::sleep_until(next_field_);
+  std::this_thread::sleep_until(std::min(next_field_, now + length));
+}
+
+void Session::open_window(const std::string& program) {
+  program_ = program;
+  const auto wanted = environment("OTTER_WINDOW");
+  const bool has_display = !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty();
+  if (wanted == "0" || !has_display) return;
+  crashes_ = 0;
+  is_closed_ = false;
+  start_window();
+}
+
+void Session::start_window() {
+  std::vector<std::string> words;
+  for (const Knob& knob : knobs()) {
+    const auto value = knob.info->get(device_.knobs());
+    if (value == knob.info->get(scene::Knobs{})) continue;
+    const bool is_switch = knob.values == "off|on";
+    words.push_back("--" + std::string(knob.info->name));
+    if (!is_switch) words.push_back(value);
+  }
+  if (!program_.empty()) words.insert(words.end(), {"--title", program_});
+  std::istringstream more(environment("OTTER_WINDOW_ARGUMENTS"));
+  for (std::string word; more >> word;) words.push_back(word);
+  auto started = WindowProcess::start(find_window_program(), words);
+  if (!started) return say(started.error().text);
+  window_ = std::move(*started);
+  is_paused_ = is_fast_ = false;
+  step_until_.reset();
+  fields_per_second_ = 0;
+  device_.watch([this] { return window_ != nullptr && window_->is_ready(); },
+                [this](const LiveFrame& frame) {
+                  if (window_) window_->send(frame);
+                });
+}
+
+void Session::close_window() {
+  if (!window_) return;
+  device_.stop_watching();
+  window_.reset();
+}
+
+/// What the window asks for; while it is paused the program waits here. A window that crashes is opened
+/// again: the program goes on.
+void Session::serve_window() {
+  constexpr int wait_ms = 20, most_crashes = 3;
+  const auto waits = [this] {
+    return is_paused_ && !(step_until_ && device_.watched_frames() < *step_until_);
+  };
+  do {
+    while (const auto request = window_->poll(waits() ? wait_ms : 0)) obey(*request);
+  } while (waits() && !window_->has_ended());
+  if (!window_->has_ended()) return;
+  close_window();
+  if (is_closed_) return;
+  if (++crashes_ > most_crashes) return say("the window has ended too often: the program goes on without");
+  say("the window has ended by itself: another one is opened");
+  start_window();
+}
+
+void Session::obey(const LiveRequest& request) {
+  switch (request.what) {
+    case LiveAsk::pause:
+      is_paused_ = request.value != 0;
+      step_until_.reset();
+      break;
+    case LiveAsk::step:
+      step_until_ = device_.watched_frames() + 1;
+      break;
+    case LiveAsk::pace:
+      if (request.value < std::size(live_paces)) fields_per_second_ = live_paces[request.value];
+      break;
+    case LiveAsk::fast:
+      is_fast_ = request.value != 0;
+      break;
+    case LiveAsk::record:
+      toggle_recording();
+      break;
+    case LiveAsk::key_down:
+    case LiveAsk::key_up:
+      keys_.push_back({request.value, request.what == LiveAsk::key_down});
+      break;
+    case LiveAsk::close_program:
+      is_closed_ = true;
+      is_paused_ = false;
+      keys_.insert(keys_.end(), {{keysym_escape, true}, {keysym_escape, false}});
+      break;
+  }
 }
 
 void Session::write_pictures() {
@@ -137,19 +241,19 @@ void Session::toggle_recording() {
 void Session::finish() {
   if (is_finished_) return;
   is_finished_ = true;
+  close_window();
   if (device_.is_recording()) tell(device_.end_recording());
-  const DepthShares& depth = device_.depth();
-  char line[256];
-  std::snprintf(line, sizeof line,
-                "%llu fields, %llu lists, %llu tags, the longest table %u, %llu faulty; polygons %llu, with "
-                "depth %llu, "
-                "partly %llu, doubtful %llu; last list at %06Xh",
-                static_cast<unsigned long long>(fields_), static_cast<unsigned long long>(lists_),
-                static_cast<unsigned long long>(nodes_), static_cast<unsigned>(buckets_),
-                static_cast<unsigned long long>(faults_), static_cast<unsigned long long>(depth.polygons),
-                static_cast<unsigned long long>(depth.with_depth),
-                static_cast<unsigned long long>(depth.partly),
-                static_cast<unsigned long long>(depth.doubtful), static_cast<unsigned>(last_head_));
+  const auto number = [](std::uint64_t n) { return std::to_string(n); };
+  std::string line = number(fields_) + " fields, " + number(lists_) + " lists, " + number(nodes_) +
+                     " tags, the longest table " + number(buckets_) + ", " + number(faults_) + " faulty; ";
+  if (device_.has_vertices()) {
+    const DepthShares& depth = device_.depth();
+    line += "polygons " + number(depth.polygons) + ", with depth " + number(depth.with_depth) + ", partly " +
+            number(depth.partly) + ", doubtful " + number(depth.doubtful);
+  } else {
+    line += "no vertex was told, so no polygon has depth";
+  }
+  if (lists_ != 0) line += numbered("; last list at %06Xh", last_head_);
   say(line);
 }
 

@@ -78,9 +78,8 @@ void Feed::packet(std::span<const std::uint32_t> words, std::uint32_t address) {
   packet_ = address == 0 ? 0 : address - 4;
   if (dump_) note_bucket();
   if (targets_.depth_of_bucket) {
-    gpu_.set_default_depth(hook_.length == 0
-                               ? std::nullopt
-                               : std::optional(gpu::depth_of_bucket(hook_.bucket, hook_.length)));
+    gpu_.set_default_depth(
+        hook_.length == 0 ? std::nullopt : std::optional(gpu::depth_of_bucket(hook_.bucket, hook_.length)));
   }
   std::size_t begin = 0, at = 0;  // words[begin..at) belong to a command that is not whole here
   while (at < words.size()) {

@@ -94,7 +94,7 @@ void draw_letters(const Stream& s) {
     }
     if (y - s.y > s.height - letter_size) break;
     if (is_drawn(letter)) {
-      SPRT_8 sprite;
+      SPRT_8 sprite{};  // its colour counts for nothing, and is black
       make_letter(sprite, letter, x, y);
       DrawPrim(&sprite);
     }

@@ -28,12 +28,10 @@ base::Result<scene::FrameStats> ProgramSubject::draw(std::int64_t frame, const s
     why_empty_ = run_->ending();
     return stats_;
   }
-  const auto drawn = app::draw_clip(shown->clip, knobs, gpu_, trace_);
-  if (!drawn) return tl::make_unexpected(drawn.error());
-  stats_ = drawn->stats;
-  const auto area = app::shown_area(gpu_, shown_);
-  why_empty_ = is_over ? run_->ending() : app::empty_reason(gpu_, area, shown->drawing);
-  picture_ = app::picture_of_clip(*drawn, gpu_, area, knobs);
+  const auto drawn = show(shown->clip, knobs);
+  if (!drawn) return drawn;
+  stats_ = *drawn;
+  if (is_over) why_empty_ = run_->ending();
   return stats_;
 }
 

@@ -35,6 +35,7 @@ dump::Dump moving_line(std::uint32_t colour_of_second = 0x00ff00) {
     const std::uint32_t y = 10 + 10 * f, colour = f == 1 ? colour_of_second : 0x00ff00;
     dump.add(PacketType::port0,
              Words{0x02400000, 0, 0x00f00140, 0x40000000 | colour, y << 16, y << 16 | 300});
+    dump.add(PacketType::port1, Words{0x05000000});
     dump.add(PacketType::vsync);
   }
   return dump;
@@ -51,14 +52,13 @@ TEST_SUITE("otter") {
     const auto rendered = folder.otter("render lines.dat --frame 2 -o two.png");
     CAPTURE(rendered.err);
     CHECK(rendered.status == 0);
-    CHECK(mentions(rendered.out, "two.png: lines.dat frame 2, 320x240, 2 commands"));
+    CHECK(mentions(rendered.out, "two.png: lines.dat frame 2, 320x240, 3 commands"));
     CHECK(folder.otter("replay lines.dat --frame 2 -o two2.png").status == 0);
     CHECK(contents(folder.path / "two.png") == contents(folder.path / "two2.png"));
-    const auto inspected = folder.otter("inspect lines.dat --frame-by vsync --frame 3 --pixel 5,30");
+    const auto inspected = folder.otter("inspect lines.dat --frame 3 --pixel 5,30");
     CHECK(inspected.status == 0);
     CHECK(mentions(inspected.out, "3:2 line wrote 03E0 over 2000"));
-    for (const std::string words :
-         {"render lines.dat -o x.png --frame 4", "inspect lines.dat --frame-by vsync --frame 4"}) {
+    for (const std::string words : {"render lines.dat -o x.png --frame 4", "inspect lines.dat --frame 4"}) {
       const auto refused = folder.otter(words);
       CHECK(refused.status == 2);
       CHECK(is_one_line(refused.err));
@@ -132,7 +132,7 @@ TEST_SUITE("otter") {
     const auto as_json = parsed(folder.otter("replay lines.psxgpu --list --json").out);
     REQUIRE_FALSE(as_json.is_discarded());
     CHECK(as_json["schema"] == "otter.list/1");
-    REQUIRE(as_json["commands"].size() == 10);
+    REQUIRE(as_json["commands"].size() == 13);
     const auto& line = as_json["commands"][5];
     CHECK(line["number"] == "1:6");
     CHECK(line["drawing"] == 2);
@@ -143,7 +143,7 @@ TEST_SUITE("otter") {
     CHECK(folder.otter("replay lines.psxgpu --until 2:1 --vram a.bin").status == 0);
     CHECK(folder.otter("replay lines.psxgpu --until 3 --vram b.bin").status == 0);
     CHECK(contents(folder.path / "a.bin") == contents(folder.path / "b.bin"));
-    for (const std::string until : {"2:3", "4:1", "2:0", "0:1", "2:", "x"}) {
+    for (const std::string until : {"2:4", "4:1", "2:0", "0:1", "2:", "x"}) {
       CAPTURE(until);
       const auto refused = folder.otter("replay lines.psxgpu --until " + until);
       CHECK(refused.status == 2);
@@ -211,13 +211,68 @@ TEST_SUITE("otter") {
     CHECK(folder.otter("replay right.psxgpu --expect-frames .").status == 2);
   }
 
+  TEST_CASE("a command has one number in every tool, whatever ends frames") {
+    const Folder folder;
+    // Two VSyncs a frame and two buffers: six frames by VSync, three by the display.
+    dump::Dump dump;
+    dump.add(PacketType::port1, Words{0x03000000, 0x08000001});
+    dump.add(PacketType::port0, Words{0xe3000000, 0xe4000000 | 1023 | 511 << 10});
+    for (std::uint32_t f = 0; f < 3; ++f) {
+      const std::uint32_t top = f % 2 == 0 ? 0 : 256;
+      dump.add(PacketType::port0, Words{0x02400000, top << 16, 0x00f00140});
+      dump.add(PacketType::vsync);
+      dump.add(PacketType::port0,
+               Words{0x4000ff00, (top + 10 + 10 * f) << 16, (top + 10 + 10 * f) << 16 | 300});
+      dump.add(PacketType::port1, Words{0x05000000 | top << 10});
+      dump.add(PacketType::vsync);
+    }
+    folder.put("two.psxgpu", file_of(dump));
+    struct Way {
+      std::string words, number, frames, first_line;
+      const char* last;  // frame
+    };
+    for (const Way& way :
+         {Way{"", "3:2", "1..3", "2:2", "3"}, Way{" --frame-by vsync", "6:1", "1..6", "4:1", "6"}}) {
+      CAPTURE(way.words);
+      const auto listed = folder.otter("replay two.psxgpu --list" + way.words);
+      CHECK(mentions(listed.out, " " + way.number + " GP0      #6 "));
+      const auto inspected =
+          folder.otter("inspect two.psxgpu --pixel 5,30 --frame " + std::string(way.last) + way.words);
+      CHECK(mentions(inspected.out, way.number + " line wrote"));
+      const auto sliced = folder.otter("slice two.psxgpu --pixel 5,30 -o s.psxgpu --frame " +
+                                       std::string(way.last) + way.words);
+      CHECK(mentions(sliced.out, way.number));
+      folder.put("black.bin", std::string(std::size_t{1} << 20, '\0'));
+      const auto blamed = folder.otter("replay two.psxgpu --expect black.bin" + way.words);
+      CHECK(blamed.status == 1);
+      CHECK(mentions(blamed.out, way.first_line + " "));  // the one before it was drawn over
+      for (const std::string command :
+           {"render -o x.png", "effects", "cost", "inspect", "slice --pixel 0,0 -o x.psxgpu"}) {
+        CAPTURE(command);
+        const auto space = command.find(' ');
+        const auto refused =
+            folder.otter(command.substr(0, space) + " two.psxgpu --frame 7" +
+                         (space == std::string::npos ? "" : command.substr(space)) + way.words);
+        CHECK(refused.status == 2);
+        CHECK(mentions(refused.err, way.frames));
+      }
+    }
+    // --frame of replay alone counts VSyncs, unless it is told otherwise.
+    CHECK(folder.otter("replay two.psxgpu --frame 6 --vram a.bin").status == 0);
+    CHECK(folder.otter("replay two.psxgpu --frame 3 --frame-by display --vram b.bin").status == 0);
+    CHECK(contents(folder.path / "a.bin") == contents(folder.path / "b.bin"));
+    const auto half = folder.otter("replay two.psxgpu --frame 5 --list");
+    CHECK(mentions(half.out, " 3:1 GP0      #5 "));
+    CHECK_FALSE(mentions(half.out, " 3:2 GP0"));
+  }
+
   TEST_CASE("compare tells the first command, register and pixel that differ, and exit 1") {
     const Folder folder;
     folder.put("a.psxgpu", file_of(moving_line()));
     folder.put("b.psxgpu", file_of(moving_line(0x0000ff)));
     const auto equal = folder.otter("compare a.psxgpu a.psxgpu");
     CHECK(equal.status == 0);
-    CHECK(mentions(equal.out, "no difference in 3 frames, 10 commands"));
+    CHECK(mentions(equal.out, "no difference in 3 frames, 13 commands"));
     const auto differ = folder.otter("compare a.psxgpu b.psxgpu --json parting.json");
     CHECK(differ.status == 1);
     CHECK(mentions(differ.out, "A 2:2  line"));
@@ -234,7 +289,7 @@ TEST_SUITE("otter") {
     const auto sliced = folder.otter("slice lines.psxgpu --frame 3 --pixel 5,30 -o small.psxgpu");
     CAPTURE(sliced.err);
     CHECK(sliced.status == 0);
-    CHECK(mentions(sliced.out, "1 of 10 commands"));
+    CHECK(mentions(sliced.out, "1 of 13 commands"));
     CHECK(mentions(sliced.out, "3:2"));
     CHECK(folder.otter("slice small.psxgpu --pixel 5,30 -o again.psxgpu").status == 0);
     for (const std::string options :

@@ -88,7 +88,7 @@ TEST_SUITE("window") {
   }
 
   TEST_CASE("a key that means nothing asks for nothing") {
-    CHECK_FALSE(app::asked_by_key("F9"));
+    CHECK_FALSE(app::asked_by_key("F7"));
     CHECK_FALSE(app::asked_by_key(""));
     CHECK_FALSE(app::asked_by_button(""));
   }
@@ -272,7 +272,7 @@ TEST_SUITE("window") {
   TEST_CASE("a program that runs goes on by one frame a call, however long that took") {
     WindowState state;
     state.frame = 7;
-    state.recorded = {.last = 7, .from = {}, .to = {}, .is_live = true};
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_growing = true};
     app::let_pass(state, 1);
     CHECK(state.frame == 8);
     app::let_pass(state, 1);
@@ -282,7 +282,7 @@ TEST_SUITE("window") {
   TEST_CASE("N makes a frame of a program that there was not, and none of one that has ended") {
     WindowState state;
     state.frame = 7;
-    state.recorded = {.last = 7, .from = {}, .to = {}, .is_live = true};
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_growing = true};
     press(state, "N");
     CHECK(state.frame == 8);
     state.frame = 7;
@@ -294,7 +294,7 @@ TEST_SUITE("window") {
   TEST_CASE("a program that has ended rests at its last frame, and is not begun again") {
     WindowState state;
     state.frame = 6;
-    state.recorded = {.last = 7, .from = {}, .to = {}, .is_live = true, .has_ended = true};
+    state.recorded = {.last = 7, .from = {}, .to = {}, .is_growing = true, .has_ended = true};
     app::let_pass(state, 1);
     CHECK(state.frame == 7);
     CHECK(state.paused);

@@ -35,13 +35,13 @@ void seek_about(debug::Timeline& timeline, const char* when, int count) {
   for (int n = 0; n < count; ++n) {
     const std::uint64_t frame = 1 + random.below(static_cast<std::uint32_t>(timeline.frames()));
     const std::uint64_t command = random.below(static_cast<std::uint32_t>(timeline.commands_in(frame)) + 1);
-    const double begin = base::now_ms();
+    const double begin = base::cpu_ms();
     timeline.seek({.frame = frame, .command = command});
-    times.push_back(base::now_ms() - begin);
+    times.push_back(base::cpu_ms() - begin);
   }
   std::ranges::sort(times);
-  std::printf("%s: %d seeks: median %.2f ms, 99 %% below %.2f ms, longest %.2f ms\n", when, count,
-              percentile(times, 0.5), percentile(times, 0.99), times.back());
+  std::printf("%s: %d seeks, processor time: median %.2f ms, 99 %% below %.2f ms, longest %.2f ms\n", when,
+              count, percentile(times, 0.5), percentile(times, 0.99), times.back());
 }
 
 /// What the process holds, in MiB, as the kernel tells.

@@ -17,9 +17,9 @@
 
 namespace {
 
-using debug::Clip, debug::Edits, debug::FrameView, debug::Recording, debug::Timeline, debug::whole_frame;
+using debug::Clip, debug::Edits, debug::FrameView, debug::Recording, debug::whole_frame;
 using dump::PacketType;
-using tests::pixels_of, tests::random_dump, tests::Words, tests::xy;
+using tests::Timeline, tests::pixels_of, tests::random_dump, tests::Words, tests::xy;
 
 std::vector<std::uint16_t> played(const Clip& clip) {
   gpu::Gpu gpu;
@@ -135,6 +135,14 @@ TEST_SUITE("debug") {
     CHECK(at(moved, 8, 8) == red);
     const auto back = played(debug::apply(clip, {.moves = {{2, 3, true}, {2, 3, false}}}).clip);
     CHECK(back == played(clip));
+  }
+
+  TEST_CASE("commands keep their numbers, wherever they are moved to") {
+    FrameView view(three_squares(), {});
+    view.set_edits({.moves = {{4, 2, false}}});
+    std::vector<std::uint64_t> numbers;
+    for (const auto& draw : view.trace().draws) numbers.push_back(debug::number_of(1, draw).command);
+    CHECK(numbers == std::vector<std::uint64_t>{5, 3, 4});  // blue before red and green
   }
 
   TEST_CASE("a command linked into another bucket is drawn first of that bucket") {

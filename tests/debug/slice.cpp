@@ -14,9 +14,9 @@
 
 namespace {
 
-using debug::Recording, debug::Timeline, debug::whole_frame;
+using debug::Recording, debug::whole_frame;
 using dump::PacketType;
-using tests::Words, tests::xy;
+using tests::Timeline, tests::Words, tests::xy;
 
 constexpr std::uint32_t at(int x, int y) { return static_cast<std::uint32_t>(y * gpu::Vram::width + x); }
 

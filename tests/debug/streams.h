@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "debug/timeline.h"
 #include "dump/dump.h"
 #include "gpu/gpu.h"
 #include "tests/random.h"
@@ -20,6 +22,15 @@ inline std::uint32_t xy(int x, int y) {
 
 /// The whole of VRAM may be drawn into.
 inline const Words everywhere{0xe3000000, 0xe4000000 | 1023 | 511 << 10};
+
+/// Of streams that never tell the display what to show: a VSync ends a frame.
+struct Timeline : debug::Timeline {
+  explicit Timeline(debug::Recording recording, const debug::DrawOptions& options = {},
+                    std::uint64_t limit_bytes = debug::most_bytes)
+      : debug::Timeline(std::move(recording), options, limit_bytes) {
+    end_frames_by(dump::FrameBy::vsync);
+  }
+};
 
 inline std::vector<std::uint16_t> pixels_of(const gpu::Gpu& gpu) {
   const auto pixels = gpu.vram().pixels();

@@ -11,9 +11,9 @@
 
 namespace {
 
-using debug::Recording, debug::Timeline, debug::whole_frame;
+using debug::Recording, debug::whole_frame;
 using dump::PacketType;
-using tests::pixels_of, tests::random_dump, tests::Words, tests::xy;
+using tests::Timeline, tests::pixels_of, tests::random_dump, tests::Words, tests::xy;
 using Pixels = std::vector<std::uint16_t>;
 
 /// A state word, a fill, a word of port 1; then an upload over the end of the frame, and a triangle with

@@ -4,6 +4,7 @@
 #include <otter/otter.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -78,9 +79,49 @@ Words ram_with_a_list() {
 }  // namespace
 
 TEST_SUITE("door") {
+  TEST_CASE("Structures lie in memory as they did when libotter.so.1 was named so") {
+    CHECK(sizeof(otter_list) == 7 * 4);
+    CHECK(offsetof(otter_list, nodes) == 12);
+    CHECK(sizeof(otter_area) == 6 * 4);
+    CHECK(sizeof(otter_depth) == 4 * 8);
+    CHECK(sizeof(otter_draw) == (5 + 3 * 4 + 2) * 4);
+    CHECK(offsetof(otter_draw, z) == (5 + 2 * 4) * 4);
+    CHECK(sizeof(otter_write) == 12);
+    CHECK(offsetof(otter_write, rejected) == 11);
+    CHECK(sizeof(otter_pixel_counts) == (3 * 8 + 4) * 8);
+    CHECK(offsetof(otter_pixel_counts, fills) == 3 * 8 * 8);
+  }
+
   TEST_CASE("The library's version is the header's") {
     CHECK(otter_version() == std::to_string(OTTER_VERSION_MAJOR) + "." + std::to_string(OTTER_VERSION_MINOR) +
                                  "." + std::to_string(OTTER_VERSION_PATCH));
+  }
+
+  TEST_CASE("A command that comes word by word may be cut by any other call") {
+    const Words triangle{0x200000ff, 0, 8, 8 << 16};
+    const auto gpu = fresh(), other = fresh();
+    gpu::Gpu plain;
+    send(gpu.get(), whole_area);
+    plain.gp0(whole_area);
+    for (std::size_t n = 0; n < 2; ++n) {
+      REQUIRE(otter_gp0_word(gpu.get(), triangle[n]) == OTTER_OK);
+      plain.gp0(triangle[n]);
+    }
+    CHECK((otter_status(gpu.get()) & 0x7fffffff) == (plain.status() & 0x7fffffff));
+    // Saved in the middle, it goes on elsewhere, in bulk; and here word by word.
+    std::vector<std::uint8_t> state(otter_save(gpu.get(), nullptr, 0));
+    REQUIRE(otter_save(gpu.get(), state.data(), state.size()) == state.size());
+    REQUIRE(otter_load(other.get(), state.data(), state.size()) == OTTER_OK);
+    send(other.get(), {triangle[2], triangle[3]});
+    for (std::size_t n = 2; n < 4; ++n) REQUIRE(otter_gp0_word(gpu.get(), triangle[n]) == OTTER_OK);
+    CHECK(pixel(gpu.get(), 1, 1) == 0x001f);
+    CHECK(vram(gpu.get()) == vram(other.get()));
+    // GP1(01h) drops what has begun.
+    REQUIRE(otter_gp0_word(gpu.get(), 0x02ffffff) == OTTER_OK);
+    REQUIRE(otter_gp1(gpu.get(), 0x01000000) == OTTER_OK);
+    for (const std::uint32_t word : {0x6000ff00U, 16U, 1U << 16 | 1U})
+      REQUIRE(otter_gp0_word(gpu.get(), word) == OTTER_OK);
+    CHECK(pixel(gpu.get(), 16, 0) == 0x03e0);
   }
 
   TEST_CASE("Words through the library draw what the GPU draws, in bulk and one by one") {

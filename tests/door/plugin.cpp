@@ -29,7 +29,8 @@ Function* find(const char* name) {
 
 struct Freeze {
   std::uint32_t version, status, control[256];
-  std::uint8_t vram[2 * 1024 * 1024];
+  std::uint8_t vram[1024 * 1024];
+  std::uint32_t behind = 0x12345678;  // the emulator's own
 };
 
 struct Plugin {
@@ -100,8 +101,29 @@ TEST_SUITE("plugin") {
     CHECK(plugin.pixels(0, 0) == 0x22221111);
     CHECK(plugin.pixels(2, 0) == 0x44443333);
     CHECK(freeze(0, nullptr) == 0);
-    memory->vram[16] = 9;  // its version
-    CHECK(freeze(0, memory.get()) == 0);
+    CHECK(memory->behind == 0x12345678);
+    CHECK(memory->vram[0] == 0x11);  // where other plugins look for it
+    CHECK(memory->vram[1] == 0x11);
+    for (const std::size_t damaged : {17U, 18U, 20U}) {
+      CAPTURE(damaged);
+      auto other = std::make_unique<Freeze>(*memory);
+      other->control[damaged] ^= 0xffff;
+      CHECK(freeze(0, other.get()) == 0);
+    }
+  }
+
+  TEST_CASE("A state with a palette of noise has room, too") {
+    Plugin plugin;
+    Words noise{0xa0000000, 256 << 16, 256 | 1 << 16};
+    std::uint32_t random = 1;
+    for (int n = 0; n < 128; ++n) noise.push_back(random = random * 1664525 + 1013904223);
+    plugin.send(noise);
+    // A rectangle of 8-bit texels takes the palette into the cache.
+    plugin.send({0xe1000080, 0xe3000000, 0xe407ffff, 0x65000000, 0, 256 << 22, 1 | 1 << 16});
+    const auto memory = std::make_unique<Freeze>();
+    const auto freeze = find<long(std::uint32_t, void*)>("GPUfreeze");
+    REQUIRE(freeze(1, memory.get()) == 1);
+    CHECK(freeze(0, memory.get()) == 1);
   }
 
   TEST_CASE("Another plugin's frozen state gives its VRAM and display") {

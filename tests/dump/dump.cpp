@@ -382,8 +382,9 @@ TEST_SUITE("gpu") {
       dump.add_text(PacketType::comment, dump::to_text(note));
       CHECK(dump::bucket_note(dump, dump.packets.back()) == note);
     }
-    for (const char* text : {"", "otter.bucket", "otter.bucket 4", "otter.bucket 4 of 4", "otter.bucket x of 4",
-                             "otter.bucket 1 of 0", "otter.bucket 1 of 99999999999", "hello"}) {
+    for (const char* text :
+         {"", "otter.bucket", "otter.bucket 4", "otter.bucket 4 of 4", "otter.bucket x of 4",
+          "otter.bucket 1 of 0", "otter.bucket 1 of 99999999999", "hello"}) {
       CAPTURE(text);
       dump.add_text(PacketType::comment, text);
       CHECK_FALSE(dump::bucket_note(dump, dump.packets.back()));

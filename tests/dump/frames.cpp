@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace {
@@ -13,13 +14,17 @@ using Words = std::vector<std::uint32_t>;
 const Words triangle{0x200000ff, 0x00000000, 0x00000010, 0x00100000};
 const Words upload{0xa0000000, 0x00000000, 0x00010002, 0x00000000};
 
-/// A dump told in letters: d draws, u uploads, v VSync, m the trace_begin mark, 0..9 GP1(05h) of that row.
+/// A dump told in letters: d draws, f fills, u uploads, v VSync, m the trace_begin mark, 0..9 GP1(05h) of
+/// that row.
 dump::Dump dump_of(const char* letters) {
   dump::Dump dump;
   for (; *letters != '\0'; ++letters) {
     switch (*letters) {
       case 'd':
         dump.add(PacketType::port0, triangle);
+        break;
+      case 'f':
+        dump.add(PacketType::port0, Words{0x02000000, 0, 0x00100010});
         break;
       case 'u':
         dump.add(PacketType::port0, upload);
@@ -73,6 +78,12 @@ TEST_SUITE("dump") {
     CHECK(ends("0md0vd0vd0v") == Ends{5, 8, 11});
   }
 
+  TEST_CASE("where nothing is shown a VSync ends a frame if a fill begins the next one") {
+    CHECK(ends("mfdvfdvvfdvd") == Ends{4, 8, 12});
+    CHECK(ends("mfdvdvfdv") == Ends{6, 9});
+    CHECK(ends("fdvfdvfd0vd1v") == Ends{10, 13});  // but not where a word shows a buffer
+  }
+
   TEST_CASE("telling the display again what it shows ends nothing where there are two buffers") {
     CHECK(ends("md1vdv1dv0dv0dv1v") == Ends{4, 10, 17});
   }
@@ -100,5 +111,68 @@ TEST_SUITE("dump") {
     CHECK(frames.of_packet(3) == 1);
     CHECK(frames.of_packet(4) == 2);
     CHECK(frames.of_packet(7) == 3);
+  }
+
+  TEST_CASE("packets that come one by one end the frames that they end together") {
+    for (const char* letters : {"0mdv2dvdv0dv2v", "0md0vvd1vd0v", "md1vdv1dv0dv0dv1v", "u0u1md0vd1v",
+                                "md0vd0vd0vd1vd0v", "md0vd1vd", "0vu1vu0v", "d0vd0vmd0vd0v", "d0vd0vd0vd0",
+                                "dvdvdv", "mfdvfdvvfdvd", "fdvfdvfd0vd1v", ""}) {
+      CAPTURE(letters);
+      const auto whole = dump_of(letters);
+      dump::Frames frames(FrameBy::display);
+      dump::Dump part;
+      std::vector<std::size_t> told;
+      bool was_settled = false;
+      const auto take = [&](dump::Frames::Rest rest) {
+        const bool holds = frames.extend(part, rest);
+        CHECK((holds || !was_settled));
+        if (!holds) told.clear();
+        // What was told before stays, but for the last end, which may move back.
+        for (std::size_t n = 0; n < told.size(); ++n) {
+          REQUIRE(n < frames.count());
+          CHECK((frames.end(n + 1) == told[n] ||
+                 (n + 1 == told.size() && rest != dump::Frames::Rest::to_come)));
+        }
+        told.clear();
+        for (std::uint64_t n = 1; n <= frames.count(); ++n) told.push_back(frames.end(n));
+        was_settled = frames.is_settled();
+      };
+      for (const auto& packet : whole.packets) {
+        part.add(packet.type, whole.payload(packet));
+        take(dump::Frames::Rest::to_come);
+      }
+      take(dump::Frames::Rest::nothing);
+      CHECK(told == ends(letters));
+      for (std::size_t n = 0; n < whole.packets.size(); ++n)
+        CHECK(frames.ends_with(n) == (std::ranges::find(told, n + 1) != told.end()));
+    }
+  }
+
+  TEST_CASE("a second buffer, shown for the first time, takes back what its absence had made frames") {
+    dump::Dump dump = dump_of("md0vd0vd0vd");
+    dump::Frames frames(FrameBy::display);
+    CHECK(frames.extend(dump, dump::Frames::Rest::to_come));
+    CHECK(frames.count() == 3);
+    CHECK_FALSE(frames.is_settled());
+    dump.add(PacketType::port1, Words{0x05000400});
+    dump.add(PacketType::port0, triangle);
+    CHECK_FALSE(frames.extend(dump, dump::Frames::Rest::to_come));
+    CHECK(frames.count() == 2);
+    CHECK(frames.is_settled());
+  }
+
+  TEST_CASE("of a damaged dump the frames that were ended count, or else what a VSync ended") {
+    const auto lost = [](const char* letters) {
+      dump::Frames frames(FrameBy::display);
+      frames.extend(dump_of(letters), dump::Frames::Rest::lost);
+      std::vector<std::size_t> list;
+      for (std::uint64_t n = 1; n <= frames.count(); ++n) list.push_back(frames.end(n));
+      return list;
+    };
+    CHECK(lost("md0vd1vd") == Ends{4, 7});
+    CHECK(lost("md0vd1") == Ends{4, 6});
+    CHECK(lost("dvdvd") == Ends{4});
+    CHECK(lost("fdvfdvf") == Ends{3, 6});
+    CHECK(lost("d").empty());
   }
 }

@@ -18,11 +18,12 @@ namespace app {
 namespace {
 
 struct CompareOptions {
-  std::string a, b, json;
+  std::string a, b, json, frame_by;
 };
 
-base::Result<std::unique_ptr<debug::Timeline>> open_compared(const std::string& name) {
-  auto source = open_source(name);
+base::Result<std::unique_ptr<debug::Timeline>> open_compared(const std::string& name,
+                                                             const std::string& frame_by) {
+  auto source = open_source(name, {.head = {}, .table = {}, .vram_in = {}, .frame_by = frame_by});
   if (!source) return tl::make_unexpected(source.error());
   if (!source->is_recording())
     return base::fail(name + ": expected a dump; otter record makes one of a scene");
@@ -105,9 +106,9 @@ Json parting_json(const CompareOptions& options, const debug::Parting& parting) 
 }
 
 base::Result<int> run_compare(const CompareOptions& options) {
-  auto a = open_compared(options.a);
+  auto a = open_compared(options.a, options.frame_by);
   if (!a) return tl::make_unexpected(a.error());
-  auto b = open_compared(options.b);
+  auto b = open_compared(options.b, options.frame_by);
   if (!b) return tl::make_unexpected(b.error());
   const Interrupt interrupt;
   Progress progress("compare", static_cast<std::size_t>(std::min((*a)->frames(), (*b)->frames())));
@@ -130,6 +131,7 @@ Action add_compare(Arguments arguments) {
   const auto options = std::make_shared<CompareOptions>();
   arguments.positional("a", "A", options->a, "a GPU dump", Presence::required);
   arguments.positional("b", "B", options->b, "another one", Presence::required);
+  add_frame_by(arguments, options->frame_by);
   arguments.text("--json", "FILE", options->json, "the report as JSON; - is standard output");
   return [options] { return run_compare(*options); };
 }

@@ -33,7 +33,7 @@ struct CostOptions {
   bool quick = false;
   int rounds = 9;
   std::optional<std::uint64_t> frame;
-  RamOptions ram;
+  SourceOptions source_options;
   std::string size = "320x240", json, csv, html;
 };
 
@@ -130,7 +130,7 @@ base::Result<int> run_cost(CostOptions& o) {
   if (auto checked = check_outputs(o); !checked) return tl::make_unexpected(checked.error());
   std::vector<Source> sources;
   for (const auto& name : o.scenes) {
-    auto opened = open_source(name, o.ram);
+    auto opened = open_source(name, o.source_options);
     if (!opened) return tl::make_unexpected(opened.error());
     sources.push_back(std::move(*opened));
   }
@@ -179,7 +179,7 @@ Action add_cost(Arguments arguments) {
   arguments.number("--rounds", "N", options->rounds, 1, 1000, "how often every setting is timed [9]");
   arguments.number("--frame", "N", options->frame, std::uint64_t{0}, std::uint64_t{1'000'000'000},
                    "of a scene the state after N/60 s [30], of a recording from 1 [1]");
-  add_ram_options(arguments, options->ram);
+  add_source_options(arguments, options->source_options);
   arguments.text("--size", "WxH", options->size, "display mode [320x240]");
   arguments.text("--json", "FILE", options->json, "write all numbers as JSON; - is standard output");
   arguments.text("--csv", "FILE", options->csv, "write one line a setting");

@@ -21,7 +21,7 @@ namespace {
 struct EffectsOptions {
   std::string scene, json;
   std::optional<std::uint64_t> frame;
-  RamOptions ram;
+  SourceOptions source_options;
   scene::Knobs knobs;
 };
 
@@ -38,7 +38,7 @@ base::Result<cost::EffectReport> effects_of(Source& source, const EffectsOptions
 
 base::Result<int> run_effects(const EffectsOptions& options) {
   if (auto checked = scene::check_knobs(options.knobs); !checked) return tl::make_unexpected(checked.error());
-  auto source = open_source(options.scene, options.ram);
+  auto source = open_source(options.scene, options.source_options);
   if (!source) return tl::make_unexpected(source.error());
   const Interrupt interrupt;
   Progress progress("effects", 1000);
@@ -72,7 +72,7 @@ Action add_effects(Arguments arguments) {
   arguments.number("--frame", "N", options->frame, std::uint64_t{0}, std::uint64_t{1'000'000'000},
                    "of a scene the state after N/60 s [0], of a recording from 1 [1]");
   arguments.text("--json", "FILE", options->json, "write the report as JSON; - is standard output");
-  add_ram_options(arguments, options->ram);
+  add_source_options(arguments, options->source_options);
   arguments.knobs(options->knobs);
   return [options] { return run_effects(*options); };
 }

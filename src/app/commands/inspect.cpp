@@ -35,10 +35,9 @@ namespace app {
 namespace {
 
 struct InspectOptions {
-  std::string source, frame, frames, frame_by = "display", pixel, camera, json, heatmap, overdraw, ids, truth,
-                                     depth_map;
+  std::string source, frame, frames, pixel, camera, json, heatmap, overdraw, ids, truth, depth_map;
   std::int64_t max = -1;
-  RamOptions ram;
+  SourceOptions source_options;
   scene::Knobs knobs;
 
   [[nodiscard]] bool wants_picture() const {
@@ -222,7 +221,7 @@ base::Result<std::optional<Position>> pixel_of(const InspectOptions& options) {
 }
 
 base::Result<std::unique_ptr<FrameSource>> open(const InspectOptions& options) {
-  auto source = open_source(options.source, options.ram);
+  auto source = open_source(options.source, options.source_options);
   if (!source) return tl::make_unexpected(source.error());
   if (!source->is_recording()) {
     CameraOffset view;
@@ -239,7 +238,6 @@ base::Result<std::unique_ptr<FrameSource>> open(const InspectOptions& options) {
   auto timeline = open_timeline(*source, options.knobs);
   if (!timeline) return tl::make_unexpected(timeline.error());
   if (auto read = (*timeline)->read_all(); !read) return tl::make_unexpected(read.error());
-  (*timeline)->end_frames_by(dump::frame_by_named(options.frame_by));
   warn_of_fault(**timeline);
   return std::make_unique<RecordingSource>(options.source, std::move(*timeline), options.knobs);
 }
@@ -350,8 +348,6 @@ Action add_inspect(Arguments arguments) {
       Presence::required);
   arguments.text("--frame", "N", options->frame, "of a scene from 0 [0], of a recording from 1 [1]");
   arguments.text("--frames", "A..B", options->frames, "several frames, both ends included");
-  arguments.choice("--frame-by", options->frame_by, {"display", "vsync"},
-                   "dump: a frame ends where the display shows another buffer, or at every VSync [display]");
   file("--json", options->json, "the report as JSON; - is standard output, and nothing else on it");
   file("--heatmap", options->heatmap, "PNG: wrong pixels in the colours of their causes");
   file("--overdraw", options->overdraw, "PNG: how often each pixel was drawn");
@@ -363,7 +359,7 @@ Action add_inspect(Arguments arguments) {
   arguments.text("--pixel", "X,Y", options->pixel, "tell the history of a pixel of the picture");
   arguments.number("--max", "N", options->max, std::int64_t{0}, std::int64_t{1} << 40,
                    "exit with 1 if more pixels are wrong");
-  add_ram_options(arguments, options->ram);
+  add_source_options(arguments, options->source_options);
   options->knobs.without_depth = foreign_without_depth;  // scenes have depths
   arguments.knobs(options->knobs);
   return [options] { return run(*options); };

@@ -19,7 +19,8 @@ base::Result<std::unique_ptr<debug::Timeline>> open_at_frame(Source& source, con
   Progress progress("read", 1000);
   const auto goes_on = [&](double done) {
     progress.at(static_cast<std::size_t>(done * 1000));
-    return !interrupt.was_asked() && (*timeline)->frames() < frame;
+    const bool is_found = (*timeline)->is_numbered() && (*timeline)->frames() >= frame;
+    return !interrupt.was_asked() && !is_found;
   };
   if (auto read = (*timeline)->read_all(goes_on); !read) return tl::make_unexpected(read.error());
   if (interrupt.was_asked()) return base::fail("interrupted", base::Exit::interrupted);

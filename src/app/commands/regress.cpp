@@ -19,6 +19,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/interrupt.h"
 #include "app/commands/progress.h"
+#include "app/source.h"
 #include "base/file_kind.h"
 #include "base/message.h"
 #include "base/read_file.h"
@@ -33,7 +34,7 @@ constexpr const char* expected_name = "otter.regress.json";
 constexpr std::uint64_t most_report_bytes = std::uint64_t{256} << 20;
 
 struct RegressOptions {
-  std::string folder, shard = "1/1", json;
+  std::string folder, shard = "1/1", json, frame_by;
   bool update = false;
   int jobs = 0;
 };
@@ -80,7 +81,7 @@ std::vector<std::string> of_shard(const std::vector<std::string>& names, const S
 
 /// Draws the dumps, several at once.
 base::Result<debug::HashesByName> hash_all(const std::string& folder, const std::vector<std::string>& names,
-                                           int jobs) {
+                                           dump::FrameBy by, int jobs) {
   debug::HashesByName hashes;
   std::optional<base::Error> failed;
   std::mutex mutex;
@@ -90,7 +91,7 @@ base::Result<debug::HashesByName> hash_all(const std::string& folder, const std:
     for (std::size_t n = next++; n < names.size() && !Interrupt::was_asked(); n = next++) {
       auto recording = debug::Recording::open(fs::path(folder) / names[n]);
       debug::FrameHashes drawn;
-      if (recording) drawn = debug::hash_frames(*recording, [] { return !Interrupt::was_asked(); });
+      if (recording) drawn = debug::hash_frames(*recording, by, [] { return !Interrupt::was_asked(); });
       const std::lock_guard lock(mutex);
       if (!recording && !failed) failed = recording.error();
       hashes.emplace(names[n], std::move(drawn));
@@ -169,7 +170,8 @@ base::Result<int> hold_to_expected(const RegressOptions& options) {
   const Interrupt interrupt;
   const auto mine = of_shard(*names, *shard);
   const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  auto dumps = hash_all(options.folder, mine, options.jobs == 0 ? cores : options.jobs);
+  auto dumps = hash_all(options.folder, mine, dump::frame_by_named(options.frame_by),
+                        options.jobs == 0 ? cores : options.jobs);
   if (!dumps) return tl::make_unexpected(dumps.error());
   if (interrupt.was_asked()) return base::fail("interrupted: nothing is written", base::Exit::interrupted);
   debug::RegressReport report{
@@ -225,6 +227,7 @@ Action add_regress(Arguments arguments) {
   arguments.text("--shard", "I/N", options->shard,
                  "every Nth dump from the Ith on; --update then writes otter.regress.I-of-N.json [1/1]");
   arguments.number("--jobs", "N", options->jobs, 1, 256, "dumps drawn at once [as many as there are cores]");
+  add_frame_by(arguments, options->frame_by);
   arguments.text("--json", "FILE", options->json,
                  "the hashes and what differs as JSON; - is standard output");
   return [options] { return hold_to_expected(*options); };

@@ -29,7 +29,7 @@ struct RenderOptions {
   std::string scene, output, directory = "out", camera, shown;
   bool all = false;
   std::optional<std::uint64_t> frame;
-  RamOptions ram;
+  SourceOptions source_options;
   scene::Knobs knobs;
   CameraOffset view;  // what `camera` says
 
@@ -120,7 +120,7 @@ base::Result<int> render(RenderOptions& options) {
     return base::fail("expected SCENE or FILE, or --all; the scenes are " + scene_names());
   if (options.output.empty())
     return base::fail("--output: expected the PNG file to write, as -o " + options.scene + ".png");
-  auto source = open_source(options.scene, options.ram);
+  auto source = open_source(options.scene, options.source_options);
   if (!source) return tl::make_unexpected(source.error());
   if (source->is_recording() && !options.camera.empty())
     return base::fail("--camera: " + options.scene + " is a recording, whose views are drawn already");
@@ -145,7 +145,7 @@ Action add_render(Arguments arguments) {
   arguments.flag("--all", options->all, "render every scene of `otter list`");
   arguments.text("-d,--directory", "DIR", options->directory, "with --all: where to write SCENE.png [out]");
   add_shown_option(arguments, options->shown);
-  add_ram_options(arguments, options->ram);
+  add_source_options(arguments, options->source_options);
   arguments.knobs(options->knobs);
   return [options] { return render(*options); };
 }

@@ -41,12 +41,8 @@ struct ReplayOptions {
   ExpectOptions expect;
   scene::Knobs knobs;
 
-  /// --frame counts frames; false: VSync packets.
+  /// --frame counts frames, as --frame-by display says; otherwise VSync packets.
   [[nodiscard]] bool counts_frames() const { return frame_by == dump::frame_by_names[0]; }
-  /// Of F:K.
-  [[nodiscard]] dump::FrameBy numbers_by() const {
-    return counts_frames() ? dump::FrameBy::display : dump::FrameBy::vsync;
-  }
 };
 
 base::Result<void> check_options(const ReplayOptions& options) {
@@ -71,8 +67,12 @@ base::Result<void> check_options(const ReplayOptions& options) {
 /// Where a replay ends, as --frame and --until say.
 struct End {
   dump::ReplayOptions limits;
-  debug::ListEnd list;
+  debug::Number moment;
 };
+
+void make_earlier(debug::Number& moment, const debug::Number& other) {
+  if (std::pair(other.frame, other.command) < std::pair(moment.frame, moment.command)) moment = other;
+}
 
 /// --until K counts drawing commands, --until F:K all of frame F.
 base::Result<void> put_until(const ReplayOptions& options, debug::Timeline& timeline, End& end) {
@@ -87,7 +87,7 @@ base::Result<void> put_until(const ReplayOptions& options, debug::Timeline& time
                                    : std::to_string(timeline.frames()) + " frames"));
     }
     const auto place = timeline.commands(number->frame)[number->command - 1].end;
-    end.list.number = number;
+    make_earlier(end.moment, *number);
     end.limits.end_packet = place.packet;
     end.limits.end_words = place.word;
     return {};
@@ -103,7 +103,7 @@ base::Result<void> put_until(const ReplayOptions& options, debug::Timeline& time
                       std::to_string(dump.drawing_commands) + " drawing commands");
   }
   end.limits.until = drawing;
-  end.list.number = timeline.find_drawing(drawing);
+  make_earlier(end.moment, *timeline.find_drawing(drawing));
   return {};
 }
 
@@ -114,17 +114,19 @@ base::Result<End> end_of(const ReplayOptions& options, debug::Timeline& timeline
     return base::fail("--frame " + std::to_string(*options.frame) + ": " + options.dump + " has " +
                       std::to_string(most) + (options.counts_frames() ? " frames" : " VSync packets"));
   }
-  End end{.limits = {}, .list = {.number = {}, .frame = options.frame}};
+  End end{.limits = {}, .moment = {timeline.frames(), debug::whole_frame}};
   if (options.frame && options.counts_frames()) {
+    end.moment.frame = *options.frame;
     end.limits.end_packet = timeline.frame(*options.frame).end_packet;
-  } else {
+  } else if (options.frame) {
+    end.moment = timeline.at_vsync(*options.frame);
     end.limits.frame = options.frame;
   }
   if (options.until.empty()) return end;
   return put_until(options, timeline, end).map([&] { return end; });
 }
 
-base::Result<void> list(const ReplayOptions& options, debug::Timeline& timeline, const debug::ListEnd& end) {
+base::Result<void> list(const ReplayOptions& options, debug::Timeline& timeline, const debug::Number& end) {
   if (options.json.empty()) {
     debug::list_text(timeline, end, [](const std::string& line) { std::puts(line.c_str()); });
     return {};
@@ -204,21 +206,20 @@ base::Result<int> replay(const ReplayOptions& options) {
   if (!read) return tl::make_unexpected(read.error());
   debug::Timeline timeline(debug::Recording(std::move(*read)), draw_options(options.knobs));
   const auto& dump = timeline.dump();
-  timeline.end_frames_by(options.numbers_by());
+  timeline.end_frames_by(dump::frame_by_named(options.frame_by));
   const auto end = end_of(options, timeline);
   if (!end) return tl::make_unexpected(end.error());
   if (dump.gpu_version == 3) {
     base::warn("otter replay", options.dump + ": made for 2 MB of VRAM, drawn with 1 MB");
   }
   if (options.list) {
-    if (auto listed = list(options, timeline, end->list); !listed) return tl::make_unexpected(listed.error());
+    if (auto listed = list(options, timeline, end->moment); !listed)
+      return tl::make_unexpected(listed.error());
   } else if (options.json != "-") {
     print_summary(options.dump, dump);
   }
   dump::ReplayOptions limits = end->limits;
-  std::optional<dump::Frames> frames;  // only a z-buffer begins and ends them
-  if (options.knobs.visibility == scene::Visibility::zbuffer)
-    limits.frames = &frames.emplace(dump, dump::frame_by_named(options.frame_by));
+  limits.frames = &timeline.frame_ends();
   std::vector<std::uint32_t> readback;
   gpu::Gpu gpu;
   gpu.set_depth(scene::depth_options(options.knobs));
@@ -245,11 +246,7 @@ base::Result<int> replay(const ReplayOptions& options) {
   if (!options.expect.is_asked()) return 0;
   auto expect = options.expect;
   expect.json = options.json;
-  // Of --frame and --until the earlier one.
-  const debug::Number last{options.frame.value_or(timeline.frames()), debug::whole_frame};
-  const bool is_until = end->list.number && end->list.number->frame <= last.frame;
-  const debug::Number moment = is_until ? *end->list.number : last;
-  return check_expected(expect, options.dump, timeline, moment, [&] { return !interrupt.was_asked(); })
+  return check_expected(expect, options.dump, timeline, end->moment, [&] { return !interrupt.was_asked(); })
       .map([](bool is_good) { return is_good ? 0 : static_cast<int>(base::Exit::failed); });
 }
 
@@ -265,9 +262,10 @@ Action add_replay(Arguments arguments) {
   arguments.text("-o,--output", "FILE", options->output, "write the display area as a PNG");
   arguments.number("--frame", "N", options->frame, std::uint64_t{1}, most,
                    "stop at the Nth VSync packet, from 1; with --frame-by display, after the Nth frame");
-  arguments.choice("--frame-by", options->frame_by, {"display", "vsync"},
-                   "what --frame and F:K count [vsync], and where the frames of a z-buffer end [display]: "
-                   "where the display shows another buffer, or at every VSync");
+  arguments.choice(
+      "--frame-by", options->frame_by, {"display", "vsync"},
+      "what ends the frames of F:K and of a z-buffer [display], and what --frame counts [vsync]: "
+      "the display shows another buffer, or a VSync");
   arguments.text("--until", "K|F:K", options->until,
                  "stop after the Kth drawing command, or after command K of frame F, both from 1");
   arguments.number("--repeat", "N", options->repeat, std::uint64_t{1}, std::uint64_t{1'000'000'000},

@@ -23,7 +23,7 @@ namespace {
 
 struct SliceOptions {
   std::string source, pixel, size = "1x1", output, format = "standard";
-  RamOptions ram;
+  SourceOptions source_options;
   std::uint64_t frame = 1;
   bool vram = false;
 };
@@ -66,7 +66,7 @@ base::Result<std::vector<std::uint32_t>> pixels_of(const SliceOptions& options, 
 }
 
 base::Result<int> run_slice(const SliceOptions& options) {
-  auto source = open_source(options.source, options.ram);
+  auto source = open_source(options.source, options.source_options);
   if (!source) return tl::make_unexpected(source.error());
   if (!source->is_recording())
     return base::fail(options.source +
@@ -131,7 +131,7 @@ Action add_slice(Arguments arguments) {
                  "the dump to write; packed if its name ends in .zst or .xz", Presence::required);
   arguments.choice("--format", options->format, {"standard", "v1"},
                    "standard: v1r1, aligned; v1: the older form [standard]");
-  add_ram_options(arguments, options->ram);
+  add_source_options(arguments, options->source_options);
   return [options] { return run_slice(*options); };
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/subject.h"
 #include "app/window/pad_keys.h"
+#include "app/window/program_keys.h"
 #include "app/window/vram_view.h"
 
 namespace app {
@@ -48,7 +49,10 @@ void Input::take(const SDL_Event& event, double now, Rect picture, WindowState& 
       if (!gui.WantTextInput || event.key.keysym.sym == SDLK_TAB) take_key(event.key, now, state);
       break;
     case SDL_WINDOWEVENT:
-      if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) held_.release_all();
+      if (event.window.event == SDL_WINDOWEVENT_FOCUS_LOST) {
+        held_.release_all();
+        release_program_keys(state);
+      }
       break;
     case SDL_MOUSEBUTTONDOWN:
       if (!gui.WantCaptureMouse) take_press(event.button, picture, state);
@@ -84,7 +88,37 @@ void Input::take(const SDL_Event& event, double now, Rect picture, WindowState& 
   }
 }
 
+// True: it is for the program that runs, not for this window.
+bool Input::take_program_key(const SDL_KeyboardEvent& key, WindowState& state) {
+  const auto keysym = x11_keysym(key.keysym.sym);
+  if (keysym == 0) return false;
+  const auto held = std::find(program_held_.begin(), program_held_.end(), keysym);
+  if (key.type == SDL_KEYUP) {
+    if (held == program_held_.end()) return false;
+    program_held_.erase(held);
+    state.live.keys.push_back({keysym, false});
+    return true;
+  }
+  const std::string name = SDL_GetKeyName(key.keysym.sym);
+  const bool is_with_control = (key.keysym.mod & KMOD_CTRL) != 0;
+  const bool is_own = is_function_key(name) || name == "Insert";
+  const bool is_programs = is_with_control           ? is_function_key(name) || name == "Escape"
+                           : state.live.program_keys ? !is_own
+                                                     : !is_own && !asked_by_key(name);
+  if (!is_programs) return false;
+  if (held != program_held_.end()) return true;  // repeats
+  program_held_.push_back(keysym);
+  state.live.keys.push_back({keysym, true});
+  return true;
+}
+
+void Input::release_program_keys(WindowState& state) {
+  for (const auto keysym : program_held_) state.live.keys.push_back({keysym, false});
+  program_held_.clear();
+}
+
 void Input::take_key(const SDL_KeyboardEvent& key, double now, WindowState& state) {
+  if (state.live.is_live && take_program_key(key, state)) return;
   const std::string name = SDL_GetKeyName(key.keysym.sym);
   if (key.type == SDL_KEYUP) {
     const auto asked = asked_by_key(name);

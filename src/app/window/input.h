@@ -1,6 +1,7 @@
 #pragma once
 // From SDL's events to what they ask of the window's state.
 
+#include <cstdint>
 #include <vector>
 
 #include "app/window/held_keys.h"
@@ -26,6 +27,8 @@ class Input {
 
  private:
   void take_key(const SDL_KeyboardEvent& key, double now, WindowState& state);
+  bool take_program_key(const SDL_KeyboardEvent& key, WindowState& state);
+  void release_program_keys(WindowState& state);
   void take_drag(const SDL_MouseMotionEvent& motion, Rect picture, WindowState& state);
   static void take_wheel(const SDL_MouseWheelEvent& wheel, Rect picture, WindowState& state);
   void take_press(const SDL_MouseButtonEvent& button, Rect picture, const WindowState& state);
@@ -36,6 +39,7 @@ class Input {
   Point pressed_;
   bool has_moved_ = false;  // since then: it is no click
   HeldKeys held_;
+  std::vector<std::uint32_t> program_held_;  // keysyms that a live program was told to be down
   std::vector<Owned<SDL_GameController>> controllers_;
 };
 

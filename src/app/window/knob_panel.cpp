@@ -108,11 +108,13 @@ void draw_knob_panel(WindowState& state, const Subject& subject, const std::stri
       state.knobs.height = frame_height;
       state.other = scene::Visibility::zbuffer;
     }
-    ImGui::SameLine();
-    if (ImGui::Button("copy command")) {
-      ImGui::SetClipboardText(command.c_str());
+    if (!state.live.is_live) {  // no command draws a frame of a program that runs elsewhere
+      ImGui::SameLine();
+      if (ImGui::Button("copy command")) {
+        ImGui::SetClipboardText(command.c_str());
+      }
+      if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", command.c_str());
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", command.c_str());
     if (ImGui::BeginTable("knobs", 2)) {
       ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 104 * scale);
       ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gpu/vram.h"
+
 namespace app {
 
 double letter_scale(double dots_per_inch, double pixels_per_point, double text_size) {
@@ -41,6 +43,15 @@ Rect place(int picture_width, int picture_height, Rect area) {
     height = std::max(static_cast<int>(unit.height * fraction), 1);
   }
   return {area.x + (area.width - width) / 2, area.y + (area.height - height) / 2, width, height};
+}
+
+std::optional<std::uint32_t> VramMapping::pixel_at(int window_x, int window_y) const {
+  const double across = (window_x - place.x + 0.5) / std::max(place.width, 1);
+  const double down = (window_y - place.y + 0.5) / std::max(place.height, 1);
+  if (across < 0 || across >= 1 || down < 0 || down >= 1) return std::nullopt;
+  const auto column = static_cast<std::uint32_t>(x + across * width) % gpu::Vram::width;
+  const auto row = static_cast<std::uint32_t>(y + down * height) % gpu::Vram::height;
+  return row * gpu::Vram::width + column;
 }
 
 }  // namespace app

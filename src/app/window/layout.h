@@ -1,6 +1,9 @@
 #pragma once
 // Where the picture goes in the window.
 
+#include <cstdint>
+#include <optional>
+
 namespace app {
 
 struct Rect {
@@ -31,6 +34,8 @@ struct VramMapping {
   double width = 1, height = 1;  ///< so much of VRAM is shown
   [[nodiscard]] double to_x(double vram_x) const { return place.x + (vram_x - x) * place.width / width; }
   [[nodiscard]] double to_y(double vram_y) const { return place.y + (vram_y - y) * place.height / height; }
+  /// The pixel of VRAM (y * 1024 + x) under a pixel of the window; nothing outside the place.
+  [[nodiscard]] std::optional<std::uint32_t> pixel_at(int window_x, int window_y) const;
 };
 
 }  // namespace app

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/commands/describe.h"
 #include "app/order_of.h"
 #include "app/window/inspection.h"
 #include "debug/number.h"
 #include "display/scanout.h"
+#include "ot/gp0.h"
 #include "scene/plan.h"
 
 namespace app {
@@ -142,6 +144,29 @@ std::vector<TableLine> table_lines(const debug::FrameView& view, const LensState
     if (opens_all || lens.open_bucket == group) lines.push_back({false, group, row, 0});
   }
   return lines;
+}
+
+Shares shares_of(const debug::Clip& clip) {
+  Shares shares;
+  for (const auto& item : clip.items) {
+    const auto at = item.command_at();
+    if (!item.is_drawing() || ot::gp0::command_of(item.words[at]) != ot::gp0::Command::polygon) continue;
+    ++shares.polygons;
+    if (at != 0) ++shares.with_depth;
+    if (item.bucket != gpu::no_bucket) ++shares.in_buckets;
+  }
+  return shares;
+}
+
+std::string to_text(const Shares& shares) {
+  if (shares.polygons == 0) return "no polygons";
+  const auto percent = [&](std::size_t part) -> std::string {
+    if (part == 0 || part == shares.polygons) return part == 0 ? "none" : "all";
+    const auto rounded = (part * 200 + shares.polygons) / (2 * shares.polygons);
+    return std::to_string(std::clamp<std::size_t>(rounded, 1, 99)) + " %";
+  };
+  return with_commas(shares.polygons) + " polygons: " + percent(shares.with_depth) + " with depth, " +
+         percent(shares.in_buckets) + " in buckets";
 }
 
 std::vector<Bar> histogram(const debug::FrameView& view, std::size_t columns) {

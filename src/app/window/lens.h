@@ -61,6 +61,14 @@ struct TableLine {
 /// Heads in the order drawn, and the rows of the open one; with a filter the rows of all that have any.
 std::vector<TableLine> table_lines(const debug::FrameView& view, const LensState& lens);
 
+/// How many of a frame's polygons bring what sorting and z-buffers need.
+struct Shares {
+  std::size_t polygons = 0, with_depth = 0, in_buckets = 0;
+};
+Shares shares_of(const debug::Clip& clip);
+/// "1,024 polygons: 98 % with depth, 100 % in buckets": what is above none and not all is never told as such.
+std::string to_text(const Shares& shares);
+
 /// Drawing commands in `columns` neighbouring parts of the table, bucket 0 first.
 struct Bar {
   std::uint32_t first = 0, last = 0;        ///< buckets, both included

@@ -1,5 +1,6 @@
 #include "app/window/sdl.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace app {
@@ -32,6 +33,12 @@ SdlSession::SdlSession() {
     return;
   }
   SDL_InitSubSystem(SDL_INIT_GAMECONTROLLER);  // without one the keyboard serves
+}
+
+double dots_per_inch(SDL_Window* window) {
+  float dots = 0;
+  const int display = std::max(SDL_GetWindowDisplayIndex(window), 0);
+  return SDL_GetDisplayDPI(display, nullptr, &dots, nullptr) == 0 ? double{dots} : 96;
 }
 
 }  // namespace app

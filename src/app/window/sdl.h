@@ -34,4 +34,7 @@ class SdlSession {
   std::string error_;
 };
 
+/// What a display asks letters to be, before what the user asks.
+double dots_per_inch(SDL_Window* window);
+
 }  // namespace app

@@ -79,6 +79,17 @@ void shape(const Clipped& list, const gpu::Primitive& p, const VramMapping& mapp
 
 }  // namespace
 
+double Pulse::of(std::optional<std::size_t> selected, double now) {
+  constexpr double seconds = 1.5;
+  if (selected != selected_) {
+    selected_ = selected;
+    begin_ = now;
+  }
+  const double since = now - begin_;
+  if (since > seconds || !selected_) return 0;
+  return 0.5 - 0.5 * std::cos(since * 4 * 2 * 3.14159265 / seconds);
+}
+
 void draw_selection(const debug::FrameView& view, const debug::Row& row, const VramMapping& mapping,
                     Rect clip, double pulse) {
   const Clipped list(clip);

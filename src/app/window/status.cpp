@@ -38,6 +38,9 @@ std::string paused_text(const WindowState& state) {
 std::vector<StatusPiece> status_pieces(const WindowState& state, const Status& status) {
   std::vector<StatusPiece> pieces;
   if (state.paused) pieces.push_back({paused_text(state), Tone::accent});
+  if (state.live.is_recording) pieces.push_back({"recording", Tone::mark});
+  if (state.live.fast) pieces.push_back({"fast", Tone::accent});
+  if (state.live.program_keys) pieces.push_back({"keys: the program's", Tone::accent});
   if (!state.lens.edits.is_empty()) pieces.push_back({"changed", Tone::mark});
   pieces.push_back({status.scene, Tone::accent});
   const bool is_recorded = state.recorded.last != 0 && state.knobs.visibility == scene::Visibility::ot;

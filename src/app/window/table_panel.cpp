@@ -287,7 +287,7 @@ void draw_details(WindowState& state, Lens& lens, float scale, TableAsks& asks) 
     ImGui::SameLine();
     ImGui::TextWrapped("%s", one.text.c_str());
     std::string about = item.origin;
-    if (view.clip().is_list_in_ram) {
+    if (view.clip().is_list_in_ram && !(item.address == 0 && item.origin.empty())) {
       std::array<char, 24> address{};
       std::snprintf(address.data(), address.size(), "tag %06Xh", item.address);
       about += (about.empty() || about.starts_with(address.data() + 4) ? std::string() : "  ");
@@ -340,6 +340,7 @@ TableAsks draw_table_panel(WindowState& state, Lens& lens, const Docked& docked,
   TableAsks asks;
   if (begin_panel(state, docked) && lens.view() != nullptr) {
     draw_filter(state.lens, *lens.view(), scale);
+    ImGui::TextDisabled("%s", c_str(to_text(shares_of(lens.view()->clip()))));
     draw_lint(*lens.view());
     draw_histogram(state.lens, *lens.view(), scale);
     const float room = ImGui::GetContentRegionAvail().y;

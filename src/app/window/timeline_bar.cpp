@@ -39,19 +39,21 @@ struct Groove {
 
 void draw_frames(WindowState& state, const TimelineMarks& marks, const Groove& where) {
   const auto& recorded = state.recorded;
+  const auto count = recorded.last - recorded.first + 1;
   const auto begin = [&](std::int64_t frame) {
-    return static_cast<double>(frame - 1) / static_cast<double>(recorded.last);
+    return static_cast<double>(frame - recorded.first) / static_cast<double>(count);
   };
+  const auto under = [&](double place) { return frame_at(place, count) + recorded.first - 1; };
   where.fill(0, 1, groove);
   where.fill(0, marks.progress, played);
   if (recorded.from) where.fill(begin(*recorded.from), begin(recorded.last_played() + 1), looped);
-  if (marks.first_different)
-    where.line(place_of_frame(*marks.first_different, recorded.last), difference_colour);
-  where.line(place_of_frame(state.frame, recorded.last), cursor);
-  if (const auto place = scrubbed("frames", where.size)) pause_at(state, frame_at(*place, recorded.last));
+  if (marks.first_different && *marks.first_different >= recorded.first)
+    where.line(place_of_frame(*marks.first_different - recorded.first + 1, count), difference_colour);
+  where.line(place_of_frame(state.frame - recorded.first + 1, count), cursor);
+  if (const auto place = scrubbed("frames", where.size)) pause_at(state, under(*place));
   if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) {
     const double across = static_cast<double>(ImGui::GetIO().MousePos.x - where.corner.x) / where.size.x;
-    ImGui::SetTooltip("frame %lld%s", static_cast<long long>(frame_at(across, recorded.last)),
+    ImGui::SetTooltip("frame %lld%s", static_cast<long long>(under(across)),
                       marks.first_different ? "\npink: where the pictures first differ, of those seen" : "");
   }
 }
@@ -102,11 +104,16 @@ void draw_timeline(WindowState& state, const TimelineMarks& marks, Rect bar, flo
   if (ImGui::Begin("timeline", nullptr, flags)) {
     if (ImGui::SmallButton(state.paused ? "play" : "pause")) state.paused = !state.paused;
     ImGui::SameLine();
-    if (ImGui::SmallButton("<")) pause_at(state, state.frame - 1);
+    if (ImGui::SmallButton("<")) handle(state, {KeyAction::previous_frame});
     ImGui::SameLine();
-    if (ImGui::SmallButton(">")) pause_at(state, state.frame + 1);
+    if (ImGui::SmallButton(">")) handle(state, {KeyAction::next_frame});
     ImGui::SameLine();
-    if (ImGui::SmallButton("loop (L)")) handle(state, {KeyAction::loop});
+    if (state.live.is_live) {
+      if (ImGui::SmallButton(state.live.is_recording ? "end recording (F8)" : "record (F8)"))
+        handle(state, {KeyAction::record});
+    } else if (ImGui::SmallButton("loop (L)")) {
+      handle(state, {KeyAction::loop});
+    }
     ImGui::SameLine();
     ImGui::Text("frame %s of %s", with_commas(static_cast<std::uint64_t>(state.frame)).c_str(),
                 with_commas(static_cast<std::uint64_t>(state.recorded.last)).c_str());

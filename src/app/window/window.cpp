@@ -5,25 +5,26 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <utility>
 
-#include "app/window/cost_meter.h"
+#include "app/live.h"
 #include "app/window/cost_panel.h"
 #include "app/window/imgui_layer.h"
 #include "app/window/input.h"
 #include "app/window/inspect_panel.h"
-#include "app/window/inspection.h"
 #include "app/window/knob_choices.h"
 #include "app/window/knob_panel.h"
 #include "app/window/layout.h"
 #include "app/window/lens.h"
+#include "app/window/metering.h"
 #include "app/window/overlay.h"
+#include "app/window/pacing.h"
 #include "app/window/pad_keys.h"
 #include "app/window/panel_frame.h"
+#include "app/window/saves.h"
 #include "app/window/screen.h"
 #include "app/window/sdl.h"
 #include "app/window/selection.h"
@@ -33,19 +34,15 @@
 #include "app/window/table_panel.h"
 #include "app/window/timeline_bar.h"
 #include "app/window/vram_panel.h"
+#include "app/window/vram_screen.h"
 #include "app/window/vram_view.h"
-#include "debug/accesses.h"
+#include "app/window/watching.h"
 #include "display/png.h"
-#include "display/scanout.h"
-#include "dump/dump_file.h"
 
 namespace app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// Of the 16 that a frame at 60 Hz has.
-constexpr double measuring_ms_per_frame = 6;
 
 double seconds_since(Clock::time_point begin) {
   return std::chrono::duration<double>(Clock::now() - begin).count();
@@ -62,26 +59,6 @@ Rect screen_room() {
   return {0, 0, usable.w, usable.h - title_bar - status_height(1, 1)};
 }
 
-// What a display asks letters to be, before what the user asks.
-double dots_per_inch(SDL_Window* window) {
-  float dots = 0;
-  const int display = std::max(SDL_GetWindowDisplayIndex(window), 0);
-  return SDL_GetDisplayDPI(display, nullptr, &dots, nullptr) == 0 ? double{dots} : 96;
-}
-
-// "otter-crates-12.png" in the current folder, or the first such name that is not taken.
-std::filesystem::path free_name(const std::string& scene, std::int64_t frame, const std::string& what,
-                                const std::string& extension = ".png") {
-  const auto stem =
-      "otter-" + std::filesystem::path(scene).stem().string() + "-" + std::to_string(frame) + what;
-  std::filesystem::path path = stem + extension;
-  std::error_code ignored;
-  for (int n = 2; std::filesystem::exists(path, ignored); ++n) {
-    path = stem + "-" + std::to_string(n) + extension;
-  }
-  return path;
-}
-
 class Window {
  public:
   explicit Window(const WindowOptions& options)
@@ -96,14 +73,14 @@ class Window {
   void update();
   void show_vram();
   void follow_recording();
+  void follow_program(Live& live);
+  void tell_program(LiveLink& link);
   void inspect();
   void look_closely();
   void resolve_click();
-  void measure();
   void open_file(const std::string& path);
   void export_changes();
   [[nodiscard]] bool looks_closely() const;
-  [[nodiscard]] double pulse();
   [[nodiscard]] VramMapping picture_mapping() const;
   void draw_marks();
   void draw();
@@ -114,10 +91,8 @@ class Window {
   void lay_out_window();
   [[nodiscard]] base::Picture shown_picture() const;
   void save_picture();
-  void save_window();
   void record();
   void told_saved(const base::Result<void>& written, const std::filesystem::path& path);
-  base::Result<void> write_window(const std::filesystem::path& path);
   [[nodiscard]] bool is_at_rest() const;
   void wait_for_next();
   void say(std::string text, bool is_error);
@@ -132,37 +107,34 @@ class Window {
   std::unique_ptr<ImGuiLayer> gui_;
   Input input_;
   Show show_;
-  std::unique_ptr<Inspection> inspection_;  // only while it is asked for
-  int inspected_scene_ = -1;
-  std::pair<Map, int> inspected_{Map::none, -1};  // what it last showed
-  std::unique_ptr<CostMeter> meter_;              // likewise
-  std::pair<int, std::int64_t> metered_{-1, -1};  // scene, and of recordings the frame
-  bool is_measuring_ = false;
+  Watching watching_;
+  Metering metering_;
   Lens lens_;
-  std::optional<std::size_t> pulsing_;  // the selection that pulses, from when on
-  double pulse_begin_ = -1e9;
+  Pulse pulse_;
   std::optional<std::int64_t> first_different_;
 
-  Screen left_, right_, vram_;
-  std::pair<display::VramFormat, display::Palette> vram_asked_;  // what vram_ shows, and of what
-  std::vector<std::uint16_t> vram_pixels_;
-  std::vector<debug::Access> accesses_;
-  bool has_accesses_ = false;  // of the frame that the lens has
-  Rect area_, picture_;        // above the status line; where the picture is
+  Screen left_, right_;
+  VramScreen vram_;
+  Rect area_, picture_;  // above the status line; where the picture is
   DockLayout layout_;
   Rect bar_;  // of the frames of a recording
   bool is_indexing_ = true;
+  struct {
+    bool paused = false, fast = false;
+    Pace pace = Pace::vsync;
+  } told_;                    // to a live program
+  bool is_stepping_ = false;  // it was asked for one more frame
   int shown_scene_ = -1;
   std::optional<std::size_t> lens_shown_;
   std::vector<std::vector<StatusPiece>> status_;
   float scale_ = 1;  // of letters
   int redraws_ = 0;  // the window is drawn so many times more though nothing happens
   bool is_fullscreen_ = false, is_minimised_ = false;
-  Pace pace_ = Pace::vsync;
+  Pacing pacing_;
   std::string title_, message_;
   bool message_is_error_ = false;
   double message_until_ = 0;
-  Clock::time_point begin_ = Clock::now(), due_ = begin_;
+  Clock::time_point begin_ = Clock::now();
   double last_ = 0, frame_seconds_ = 1.0 / 60;
 };
 
@@ -233,10 +205,10 @@ void Window::renew_textures() {
   gui_->renew_font();
   left_ = {};
   right_ = {};
-  vram_ = {};
+  vram_.forget();
   left_.show(renderer_.get(), shown_picture());
   if (state_.compares()) right_.show(renderer_.get(), show_.right());
-  inspected_ = {Map::none, -1};
+  watching_.show_anew();
 }
 
 // Lets time pass, moves the camera, draws the scene if anything has changed.
@@ -256,7 +228,7 @@ void Window::update() {
     return;
   }
   if (*updated) {
-    vram_ = {};
+    vram_.forget();
     if (shown_scene_ != state_.scene) {
       shown_scene_ = state_.scene;
       is_indexing_ = true;
@@ -272,32 +244,26 @@ void Window::update() {
   look_closely();
   state_.clicked.reset();  // a click that nobody wanted
   inspect();
-  measure();
+  metering_.update(state_, show_.machine());
   show_vram();
 }
 
-// VRAM as a picture, made anew when it or the way it is read has changed.
 void Window::show_vram() {
-  if (!state_.shows(Panel::vram) || show_.machine() == nullptr) {
-    vram_ = {};
-    return;
-  }
-  const std::pair asked(state_.vram.format, state_.vram.palette);
-  if (!vram_.is_empty() && asked == vram_asked_) return;
-  vram_asked_ = asked;
+  if (!state_.shows(Panel::vram) || show_.machine() == nullptr) return vram_.forget();
   const bool is_lens = looks_closely() && lens_.view() != nullptr;
-  vram_pixels_ = is_lens ? lens_.vram(state_) : show_.machine()->vram();
-  vram_.show(renderer_.get(), display::vram_picture(vram_pixels_, asked.first, asked.second));
-  redraws_ = settling;
+  const bool is_new = vram_.update(renderer_.get(), state_.vram,
+                                   [&] { return is_lens ? lens_.vram(state_) : show_.machine()->vram(); });
+  if (is_new) redraws_ = settling;
 }
 
 // A recording has so many frames, more of which become known while it is shown.
 void Window::follow_recording() {
   auto* subject = show_.machine();
   if (subject == nullptr || show_.scene() != state_.scene) return;
+  if (auto* live = subject->live()) return follow_program(*live);
   const auto last = subject->last_frame();
   state_.recorded.last = last.value_or(0);
-  state_.recorded.is_live = subject->is_live();
+  state_.recorded.is_growing = subject->is_growing();
   state_.recorded.has_ended = subject->has_ended();
   state_.recorded.wants_pad = subject->wants_pad();
   if (!last || subject->is_behind()) return;  // how far it comes is not known yet
@@ -307,6 +273,49 @@ void Window::follow_recording() {
   if (show_.different().value_or(0) != 0) {
     first_different_ = std::min(first_different_.value_or(state_.frame), state_.frame);
   }
+}
+
+// What a program that runs has sent; at rest its last frames are gone through.
+void Window::follow_program(Live& live) {
+  const auto before = live.reel().last();
+  live.take_frames();
+  auto& reel = live.reel();
+  state_.live.is_live = true;
+  state_.live.is_recording = live.is_recording_program();
+  state_.recorded.first = reel.first();
+  state_.recorded.last = reel.last();
+  const int go = std::exchange(state_.live.go, 0);
+  auto* link = live.link();
+  if (!state_.paused || (is_stepping_ && reel.last() > before)) {
+    state_.frame = reel.last();
+    is_stepping_ = false;
+  } else if (go < 0) {
+    state_.frame = reel.before(state_.frame);
+  } else if (go > 0 && state_.frame < reel.last()) {
+    state_.frame = reel.after(state_.frame);
+  } else if (go > 0 && link != nullptr) {
+    is_stepping_ = true;
+    link->ask(door::LiveAsk::step);
+  }
+  state_.frame = std::clamp(state_.frame, reel.first(), reel.last());
+  if (link != nullptr) tell_program(*link);
+}
+
+void Window::tell_program(LiveLink& link) {
+  using door::LiveAsk;
+  const auto& live = state_.live;
+  if (std::exchange(told_.paused, state_.paused) != state_.paused) link.ask(LiveAsk::pause, state_.paused);
+  if (std::exchange(told_.fast, live.fast) != live.fast) link.ask(LiveAsk::fast, live.fast);
+  if (std::exchange(told_.pace, state_.pace) != state_.pace)
+    link.ask(LiveAsk::pace, static_cast<std::uint32_t>(state_.pace));
+  for (const auto& key : std::exchange(state_.live.keys, {}))
+    link.ask(key.is_down ? LiveAsk::key_down : LiveAsk::key_up, key.keysym);
+  if (!link.has_ended()) {
+    if (state_.quit) link.ask(LiveAsk::close_program);
+    return;
+  }
+  if (const auto error = link.error(); !error.empty() && message_ != error) say(error, true);
+  if (link.error().empty()) state_.quit = true;  // with the program
 }
 
 bool Window::looks_closely() const {
@@ -330,22 +339,16 @@ void Window::look_closely() {
   lens_shown_ = state_.lens.shown;
   if (!is_changed) return;
   redraws_ = settling;
-  if (*updated) has_accesses_ = false;
-  if (!inspection_) left_.show(renderer_.get(), shown_picture());
-  vram_ = {};
+  if (*updated) vram_.forget_accesses();
+  if (watching_.inspection() == nullptr) left_.show(renderer_.get(), shown_picture());
+  vram_.forget();
 }
 
 // A click on the picture, or on VRAM, selects the command that is seen there.
 void Window::resolve_click() {
   if (!state_.clicked || lens_.view() == nullptr) return;
   const auto at = *std::exchange(state_.clicked, std::nullopt);
-  const auto mapping = picture_mapping();
-  const double across = (at.x - mapping.place.x + 0.5) / std::max(mapping.place.width, 1);
-  const double down = (at.y - mapping.place.y + 0.5) / std::max(mapping.place.height, 1);
-  if (across < 0 || across >= 1 || down < 0 || down >= 1) return;
-  const auto x = static_cast<std::uint32_t>(mapping.x + across * mapping.width) % gpu::Vram::width;
-  const auto y = static_cast<std::uint32_t>(mapping.y + down * mapping.height) % gpu::Vram::height;
-  pick(state_.lens, *lens_.view(), y * gpu::Vram::width + x);
+  if (const auto pixel = picture_mapping().pixel_at(at.x, at.y)) pick(state_.lens, *lens_.view(), *pixel);
 }
 
 // What of VRAM the picture shows.
@@ -356,27 +359,15 @@ VramMapping Window::picture_mapping() const {
           double(std::max(area.height, 1))};
 }
 
-// A new selection pulses for a while; then the window may rest.
-double Window::pulse() {
-  constexpr double seconds = 1.5;
-  const double now = seconds_since(begin_);
-  if (state_.lens.selected != pulsing_) {
-    pulsing_ = state_.lens.selected;
-    pulse_begin_ = now;
-  }
-  const double since = now - pulse_begin_;
-  if (since > seconds || !pulsing_) return 0;
-  redraws_ = std::max(redraws_, 2);
-  return 0.5 - 0.5 * std::cos(since * 4 * 2 * 3.14159265 / seconds);
-}
-
 void Window::draw_marks() {
   auto* view = lens_.view();
   if (view == nullptr || !looks_closely()) return;
   const auto mapping = picture_mapping();
+  const double pulse = pulse_.of(state_.lens.selected, seconds_since(begin_));
+  if (pulse != 0) redraws_ = std::max(redraws_, 2);
   if (state_.lens.selected) {
     if (const auto row = view->row_of_item(*state_.lens.selected)) {
-      draw_selection(*view, view->rows()[*row], mapping, picture_, pulse());
+      draw_selection(*view, view->rows()[*row], mapping, picture_, pulse);
       if (state_.shows(Panel::vram)) draw_sources(*view, view->rows()[*row], mapping, picture_);
     }
   }
@@ -385,62 +376,25 @@ void Window::draw_marks() {
 
 void Window::export_changes() {
   const auto path = std::filesystem::path(free_name(show_.scene_name(), state_.frame, "-changed", ".psxgpu"));
-  const auto written = dump::write_dump(path, dump::DumpFormat::standard, [&](dump::DumpWriter& writer) {
-    debug::write_clip(lens_.view()->edited(), writer);
-    return base::Result<void>{};
-  });
-  told_saved(written, path);
+  told_saved(save_changes(*lens_.view(), path), path);
 }
 
-// Watches the frame while the inspector is open, and shows what it asks for in place of the left picture.
+// What the inspector asks for stands in place of the left picture.
 void Window::inspect() {
-  if (!is_inspecting() || show_.machine() == nullptr) {
-    if (inspection_ && !show_.left().pixels.empty()) {
-      inspection_.reset();
-      left_.show(renderer_.get(), shown_picture());
-    }
-    return;
-  }
-  if (!inspection_ || inspected_scene_ != state_.scene) {
-    inspection_ = std::make_unique<Inspection>(*show_.machine(), state_.knobs);
-    inspected_scene_ = state_.scene;
-  }
-  const auto drawn = inspection_->update(state_);
-  if (!drawn) return say(drawn.error().text, true);
-  const std::pair asked(inspection_->unwatched().empty() ? state_.map : Map::none, state_.first_draws);
-  if (!*drawn && asked == inspected_ && asked.first != Map::none) return;  // a map takes a while
-  if (*drawn || asked != inspected_) redraws_ = settling;
-  inspected_ = asked;
+  const auto watched = watching_.update(state_, show_.machine());
+  if (!watched) return say(watched.error().text, true);
+  if (*watched == Watching::Change::none || show_.left().pixels.empty()) return;
+  if (*watched == Watching::Change::frame) redraws_ = settling;
   left_.show(renderer_.get(), shown_picture());
 }
 
 // What stands at the left, or alone, a pixel for each of the console's.
 base::Picture Window::shown_picture() const {
-  const bool is_map = inspection_ && state_.map != Map::none;
-  if (!is_map && looks_closely()) {
+  if (!watching_.shows_map(state_) && looks_closely()) {
     if (auto picture = lens_.picture(state_)) return *std::move(picture);
   }
-  if (!inspection_ || !inspection_->unwatched().empty()) return show_.left();
-  if (state_.map != Map::none) return inspection_->map(state_.map);
-  return state_.first_draws < 0 ? show_.left() : inspection_->after(state_.first_draws);
-}
-
-// Grants the cost panel its share of this frame. A meter that is no longer wanted goes when its last drawing
-// is done: waiting for it would show.
-void Window::measure() {
-  const bool wanted = state_.shows(Panel::cost) && show_.machine() != nullptr;
-  is_measuring_ = false;
-  if (wanted && show_.machine()->is_recording() && !state_.paused) return;  // a frame is measured at rest
-  const std::pair now(state_.scene, wanted && show_.machine()->is_recording() ? state_.frame : 0);
-  if (meter_ && (!wanted || metered_ != now)) meter_->stop();
-  if (meter_ && meter_->has_ended()) meter_.reset();
-  if (!wanted) return;
-  if (!meter_) {
-    meter_ = std::make_unique<CostMeter>(show_.machine()->apart(state_.frame, state_.knobs));
-    metered_ = now;
-  }
-  is_measuring_ = !state_.paused || !meter_->table().is_settled();
-  meter_->follow(state_.frame, state_.knobs, state_.camera, is_measuring_ ? measuring_ms_per_frame : 0);
+  if (auto picture = watching_.picture(state_)) return *std::move(picture);
+  return show_.left();
 }
 
 void Window::follow_state() {
@@ -448,11 +402,7 @@ void Window::follow_state() {
     is_fullscreen_ = state_.fullscreen;
     SDL_SetWindowFullscreen(window_.get(), is_fullscreen_ ? SDL_WINDOW_FULLSCREEN_DESKTOP : 0);
   }
-  if (state_.pace != pace_) {
-    pace_ = state_.pace;
-    SDL_RenderSetVSync(renderer_.get(), pace_ == Pace::vsync ? 1 : 0);
-    due_ = Clock::now();
-  }
+  pacing_.follow(state_.pace, renderer_.get());
   auto title = window_title(state_, show_.scene_name());
   if (title != title_) SDL_SetWindowTitle(window_.get(), title.c_str());
   title_ = std::move(title);
@@ -489,9 +439,7 @@ void Window::lay_out_window() {
 
 void Window::draw_pictures() {
   if (state_.shows(Panel::vram)) {
-    const auto& part = state_.vram;
-    vram_.draw_part(renderer_.get(), picture_, part.x / display::vram_width, part.y / display::vram_height,
-                    1 / part.zoom, 1 / part.zoom);
+    vram_.draw(renderer_.get(), state_.vram, picture_);
   } else if (state_.split) {
     left_.draw(renderer_.get(), picture_, 0, state_.divider);
     right_.draw(renderer_.get(), picture_, state_.divider, 1);
@@ -513,21 +461,20 @@ void Window::draw_panels() {
         draw_knob_panel(state_, *machine, command, docked, scale_);
         break;
       case Panel::inspect:
-        if (inspection_) draw_inspect_panel(state_, *inspection_, docked, scale_);
+        if (auto* watched = watching_.inspection()) draw_inspect_panel(state_, *watched, docked, scale_);
         break;
       case Panel::cost:
-        if (meter_ && metered_.first == state_.scene) {
-          draw_cost_panel(state_, meter_->table(), docked, scale_);
+        if (const auto table = metering_.table(state_.scene)) {
+          draw_cost_panel(state_, *table, docked, scale_);
         }
         break;
       case Panel::table:
         if (draw_table_panel(state_, lens_, docked, scale_).exports) export_changes();
         break;
       case Panel::vram:
-        if (lens_.view() != nullptr && !std::exchange(has_accesses_, true)) {
-          accesses_ = debug::accesses_of(*lens_.view());
+        if (draw_vram_panel(state_, lens_.view(), vram_.accesses(lens_.view()), docked, scale_)) {
+          state_.save_picture = true;
         }
-        if (draw_vram_panel(state_, lens_.view(), accesses_, docked, scale_)) state_.save_picture = true;
         break;
     }
   }
@@ -547,8 +494,8 @@ void Window::draw() {
   ImGuiLayer::begin();
   const bool shows_vram = state_.shows(Panel::vram);
   if (shows_vram && show_.machine() != nullptr) {
-    if (!vram_pixels_.empty()) {
-      draw_vram_marks(show_.machine()->gpu(), vram_pixels_, picture_mapping(), state_.vram.grid, scale_);
+    if (!vram_.pixels().empty()) {
+      draw_vram_marks(show_.machine()->gpu(), vram_.pixels(), picture_mapping(), state_.vram.grid, scale_);
     }
   } else {
     if (state_.split) draw_divider(state_, picture_);
@@ -563,8 +510,9 @@ void Window::draw() {
                   {show_.machine()->progress(), first_different_, view != nullptr ? view->rows().size() : 0},
                   bar_, scale_);
   }
-  if (inspection_ && !shows_vram && state_.paused && inspection_->unwatched().empty()) {
-    draw_history(*inspection_, picture_, left_.width(), left_.height());
+  auto* watched = watching_.inspection();
+  if (watched != nullptr && !shows_vram && state_.paused && watched->unwatched().empty()) {
+    draw_history(*watched, picture_, left_.width(), left_.height());
   }
   if (state_.help) draw_help(state_, area_, scale_);
   draw_menus();
@@ -575,23 +523,14 @@ void Window::draw() {
   gui_->end();
 }
 
-base::Result<void> Window::write_window(const std::filesystem::path& path) {
-  int width = 0;
-  int height = 0;
-  SDL_GetRendererOutputSize(renderer_.get(), &width, &height);
-  base::Picture picture(width, height);
-  if (SDL_RenderReadPixels(renderer_.get(), nullptr, SDL_PIXELFORMAT_RGBA32, picture.pixels.data(),
-                           width * 4) != 0) {
-    return base::fail(path.string() + ": the window cannot be read back: " + SDL_GetError(),
-                      base::Exit::failed);
-  }
-  return display::write_png(path, picture);
-}
-
 // Begins or ends it.
 void Window::record() {
   auto* subject = show_.machine();
   if (subject == nullptr) return;
+  if (auto* live = subject->live()) {
+    if (live->link() != nullptr) live->link()->ask(door::LiveAsk::record);
+    return;
+  }
   const auto path = free_name(show_.scene_name(), state_.frame, "", ".psxgpu");
   const auto done = subject->record(std::filesystem::absolute(path).string());
   say(done ? *done : done.error().text, !done);
@@ -609,45 +548,29 @@ void Window::save_picture() {
   if (machine == nullptr) return;
   const bool is_vram = state_.shows(Panel::vram);
   const auto path = free_name(show_.scene_name(), state_.frame, is_vram ? "-vram" : "");
-  const auto picture = is_vram && !vram_pixels_.empty()
-                           ? display::vram_picture(vram_pixels_, state_.vram.format, state_.vram.palette)
-                           : shown_picture();
+  const auto picture = is_vram && !vram_.pixels().empty() ? vram_.picture(state_.vram) : shown_picture();
   told_saved(display::write_png(path, picture), path);
-}
-
-void Window::save_window() {
-  const auto path = free_name(show_.scene_name(), state_.frame, "-window");
-  told_saved(write_window(path), path);
 }
 
 // At rest nothing changes on the screen until something happens outside.
 bool Window::is_at_rest() const {
   const bool is_behind = show_.machine() != nullptr && show_.machine()->is_behind();
-  const bool is_busy =
-      is_measuring_ || is_behind || input_.is_moving() || (is_indexing_ && state_.recorded.last != 0);
+  const bool is_busy = metering_.is_measuring() || is_behind || input_.is_moving() ||
+                       (is_indexing_ && state_.recorded.last != 0);
   return state_.paused && redraws_ == 0 && !is_busy && !options_.frames;
 }
 
-// A fixed pace sleeps until its next frame is due. With vsync SDL has waited already, unless the driver does
-// not: then 250 frames a second are enough.
+// At rest for an event, or until what is on screen changes by itself.
 void Window::wait_for_next() {
-  using std::chrono::duration;
-  if (is_at_rest()) {
-    const double message = message_is_error_ ? 0 : message_until_ - seconds_since(begin_);
-    constexpr int long_ms = 1000;
-    const bool is_typing = ImGui::GetIO().WantTextInput;  // its cursor blinks
-    SDL_WaitEventTimeout(nullptr, message > 0 ? static_cast<int>(message * 1000) + 1
-                                  : is_typing ? long_ms / 5
-                                              : long_ms);
-    if (message > 0 || is_typing) redraws_ = 1;
-    due_ = Clock::now();
-    return;
-  }
-  const double period = pace_ == Pace::hz60 ? 1.0 / 60 : pace_ == Pace::hz50 ? 1.0 / 50 : 1.0 / 250;
-  due_ += std::chrono::duration_cast<Clock::duration>(duration<double>(period));
-  const double early = -seconds_since(due_);
-  if (early > 0) SDL_Delay(static_cast<Uint32>(early * 1000));
-  if (early < -0.1 || pace_ == Pace::vsync) due_ = Clock::now();  // late: do not hurry after it
+  if (!is_at_rest()) return pacing_.wait();
+  const double message = message_is_error_ ? 0 : message_until_ - seconds_since(begin_);
+  constexpr int long_ms = 1000;
+  const bool is_typing = ImGui::GetIO().WantTextInput;  // its cursor blinks
+  SDL_WaitEventTimeout(nullptr, message > 0 ? static_cast<int>(message * 1000) + 1
+                                : is_typing ? long_ms / 5
+                                            : long_ms);
+  if (message > 0 || is_typing) redraws_ = 1;
+  pacing_.start_anew();
 }
 
 base::Result<int> Window::run() {
@@ -656,7 +579,7 @@ base::Result<int> Window::run() {
   left_.show(renderer_.get(), show_.left());
   if (state_.compares()) right_.show(renderer_.get(), show_.right());
   last_ = seconds_since(begin_);
-  due_ = Clock::now();
+  pacing_.start_anew();
   redraws_ = settling;
   for (int drawn = 0; !state_.quit; ++drawn) {
     if (take_events()) redraws_ = settling;
@@ -675,10 +598,13 @@ base::Result<int> Window::run() {
     if (redraws_ > 0) --redraws_;
     const bool is_last = options_.frames && drawn + 1 >= *options_.frames;
     if (is_last && !options_.screenshot.empty()) {
-      if (auto written = write_window(options_.screenshot); !written)
+      if (auto written = save_window(renderer_.get(), options_.screenshot); !written)
         return tl::make_unexpected(written.error());
     }
-    if (std::exchange(state_.save_window, false)) save_window();
+    if (std::exchange(state_.save_window, false)) {
+      const auto path = free_name(show_.scene_name(), state_.frame, "-window");
+      told_saved(save_window(renderer_.get(), path), path);
+    }
     if (std::exchange(state_.save_picture, false)) save_picture();
     if (std::exchange(state_.record, false)) record();
     SDL_RenderPresent(renderer_.get());

@@ -23,6 +23,9 @@ constexpr std::array key_bindings{
     Binding{KeyAction::previous_frame, "B", "", "dpleft", "pause, and one frame back"},
     Binding{KeyAction::next_pace, "P", "", "", "pace: vsync, 60 Hz, 50 Hz, slow motion"},
     Binding{KeyAction::loop, "L", "", "", "recording: loop from here; again: to here; again: no loop"},
+    Binding{KeyAction::fast, "F9", "", "", "live program: as fast as it can; again: at its pace"},
+    Binding{KeyAction::program_keys, "Insert", "", "",
+            "live program: all keys but Insert and F1 - F12 are its own; again: those without meaning here"},
     Binding{KeyAction::camera_home, "Home", "", "rightstick", "camera back to where the scene has it"},
     Binding{KeyAction::next_scene, "PageDown", "", "rightshoulder", "next scene"},
     Binding{KeyAction::previous_scene, "PageUp", "", "leftshoulder", "previous scene"},
@@ -60,6 +63,7 @@ constexpr double text_step = 0.25;
 
 constexpr std::array held{
     Gesture{"1 .. 9", "that scene"},
+    Gesture{"Ctrl with F1 .. F12, Escape", "live program: the key is the emulator's"},
     Gesture{"arrows, left drag, left stick", "orbit round the scene"},
     Gesture{"W A S D R F (hold), triggers", "fly: forward, left, back, right, up, down"},
     Gesture{"right drag, right stick", "look round"},
@@ -91,10 +95,15 @@ void toggle_in(Set& set, std::size_t item) {
   if (!set.erase(item)) set.insert(item);
 }
 
+void go(WindowState& state, int frames) {
+  state.live.go = state.paused ? frames : 0;
+  state.paused = true;
+}
+
 // From here, to here, no loop.
 void loop(WindowState& state) {
   auto& recorded = state.recorded;
-  if (recorded.last == 0) return;
+  if (recorded.last == 0 || state.live.is_live) return;
   if (!recorded.from) {
     recorded.from = state.frame;
   } else if (!recorded.to && state.frame >= *recorded.from) {
@@ -204,9 +213,11 @@ void handle(WindowState& state, Asked asked) {
       toggle(state.paused);
       break;
     case KeyAction::next_frame:
+      if (state.live.is_live) return go(state, 1);
       pause_at(state, state.frame + 1);
       break;
     case KeyAction::previous_frame:
+      if (state.live.is_live) return go(state, -1);
       pause_at(state, state.frame - 1);
       break;
     case KeyAction::next_pace:
@@ -276,6 +287,12 @@ void handle(WindowState& state, Asked asked) {
     case KeyAction::loop:
       loop(state);
       break;
+    case KeyAction::fast:
+      toggle(state.live.fast);
+      break;
+    case KeyAction::program_keys:
+      toggle(state.live.program_keys);
+      break;
     case KeyAction::larger_text:
       state.text_size = std::min(state.text_size + text_step, largest_text);
       break;
@@ -310,12 +327,12 @@ void pause_at(WindowState& state, std::int64_t frame) {
   state.paused = true;
   state.late = 0;
   const bool is_recorded = state.recorded.last > 0;
-  state.frame = std::max<std::int64_t>(frame, is_recorded ? 1 : 0);
+  state.frame = std::max<std::int64_t>(frame, is_recorded ? state.recorded.first : 0);
   if (is_recorded) state.frame = std::min(state.frame, state.recorded.furthest());
 }
 
 void let_pass(WindowState& state, double seconds) {
-  if (state.paused) return;
+  if (state.paused || state.live.is_live) return;
   constexpr double frames_per_second = 60;
   const bool is_recorded = state.recorded.last > 0;
   double frames = 0;
@@ -339,7 +356,7 @@ void let_pass(WindowState& state, double seconds) {
   state.late = std::max(due - whole, 0.0) / frames_per_second;
   if (!is_recorded) return;
   const auto& recorded = state.recorded;
-  if (recorded.is_live && !recorded.to) {
+  if (recorded.is_growing && !recorded.to) {
     state.frame = std::min(state.frame, recorded.last + (recorded.has_ended ? 0 : 1));
     if (recorded.has_ended && state.frame == recorded.last) state.paused = true;
     return;

@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "app/window/camera.h"
 #include "app/window/dock.h"
@@ -52,6 +53,8 @@ enum class KeyAction : std::uint8_t {
   hide,
   solo,
   loop,
+  fast,          ///< live program: as fast as it can, or at its pace
+  program_keys,  ///< live program: it gets all keys but the function keys, or those that mean nothing here
   larger_text,
   smaller_text,
   usual_text,
@@ -59,7 +62,7 @@ enum class KeyAction : std::uint8_t {
   fullscreen,
   save_picture,
   save_window,
-  record,
+  record,  ///< of a program: begins or ends a recording
   quit,
 };
 
@@ -136,19 +139,33 @@ struct VramState {
   bool grid = true;               ///< of texture pages
 };
 
+/// A program that runs elsewhere.
+struct LiveState {
+  bool is_live = false;
+  bool fast = false, program_keys = false;
+  bool is_recording = false;  ///< told by the program
+  int go = 0;                 ///< frames to go while it waits, asked for; the window does it and clears this
+  struct Key {
+    std::uint32_t keysym = 0;  ///< X11's
+    bool is_down = false;
+  };
+  std::vector<Key> keys;  ///< for the program; the window hands them on and clears this
+};
+
 /// Frames of a recording; of a scene there are none.
 struct Recorded {
-  std::int64_t last = 0;                 ///< from 1; 0: it is a scene
+  std::int64_t first = 1;                ///< that there still is: of a live program not the first it had
+  std::int64_t last = 0;                 ///< 0: it is a scene
   std::optional<std::int64_t> from, to;  ///< the loop, ends included
-  bool is_live = false;                  ///< frames are made behind the last
+  bool is_growing = false;               ///< frames are made behind the last
   bool has_ended = false;                ///< no more of them
   bool wants_pad = false;                ///< the keys of app::pad_keys are the program's
   /// The last frame that can be asked for.
   [[nodiscard]] std::int64_t furthest() const {
     constexpr std::int64_t anywhere = 1'000'000'000;
-    return is_live && !has_ended ? anywhere : last;
+    return is_growing && !has_ended ? anywhere : last;
   }
-  [[nodiscard]] std::int64_t first_played() const { return from.value_or(1); }
+  [[nodiscard]] std::int64_t first_played() const { return from.value_or(first); }
   [[nodiscard]] std::int64_t last_played() const { return to.value_or(last); }
 };
 
@@ -175,6 +192,7 @@ struct WindowState {
   LensState lens;
   VramState vram;
   Recorded recorded;
+  LiveState live;
   std::optional<Point> clicked;  ///< a place in the window that was clicked; the window takes it
   bool fullscreen = false;
   bool menu = false;          ///< a menu of a panel is open; told by the window
@@ -201,10 +219,11 @@ void handle(WindowState& state, Asked asked);
 /// Goes to a frame, at rest.
 void pause_at(WindowState& state, std::int64_t frame);
 
-/// Lets `seconds` of real time pass, unless paused: vsync counts 60 frames a second, a fixed pace one per
-/// call, or of a scene at 50 Hz 1.2. A recording begins again behind its last frame, or behind that of the
-/// loop; what is live goes on by one frame a call at most, and rests when it has ended. A stall (a moved or
-/// minimised window) counts as a tenth of a second.
+/// Lets `seconds` of real time pass, unless paused or in a live program, which has its own: vsync counts 60
+/// frames a second, a fixed pace one per call, or of a scene at 50 Hz 1.2. A recording begins again behind
+/// its last frame, or behind that of the loop; a program that is run again and again goes on by one frame a
+/// call at most, and rests when it has ended. A stall (a moved or minimised window) counts as a tenth of a
+/// second.
 void let_pass(WindowState& state, double seconds);
 
 }  // namespace app

@@ -9,8 +9,9 @@ extern "C" {
 #endif
 
 typedef struct {
-  volatile uint16_t value;   ///< ticks
-  volatile uint16_t ctrl;    ///< bit 3: begin again at `reload`; 4, 5: interrupt there, at overflow; 8, 9: clock
+  volatile uint16_t value;  ///< ticks
+  volatile uint16_t
+      ctrl;  ///< bit 3: begin again at `reload`; 4, 5: interrupt there, at overflow; 8, 9: clock
   volatile uint16_t reload;
 } otter_timer_registers;
 /// Of timer 0 (pixel clock), 1 (lines), 2 (system clock / 8); any other number is timer 2.

@@ -5,6 +5,10 @@
 #include <stdint.h>
 #include <string.h>
 
+#ifdef __mips__
+#include "otter_console_hooks.h"
+#else
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -24,6 +28,8 @@ void otter_link(void* ot, void* first, void* last);
 #ifdef __cplusplus
 }
 #endif
+
+#endif  // __mips__
 
 static inline uint32_t otter_word(const void* from, unsigned offset) {
   uint32_t word;
