@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <iterator>
 #include <utility>
 
+#include "base/socket.h"
 #include "debug/item_cutter.h"
 #include "ot/describe.h"
 
@@ -45,31 +45,19 @@ LiveLink::~LiveLink() {
   close(socket_);
 }
 
-bool LiveLink::read_all(void* to, std::size_t bytes) const {
-  auto* at = static_cast<std::byte*>(to);
-  while (bytes > 0) {
-    const auto got = recv(socket_, at, bytes, 0);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) return false;
-    at += got;
-    bytes -= static_cast<std::size_t>(got);
-  }
-  return true;
-}
-
 void LiveLink::read_frames() {
   constexpr std::size_t most_waiting = 4;
   std::vector<std::byte> bytes;
   std::string error;
   for (;;) {
     std::uint64_t length = 0;
-    if (!read_all(&length, sizeof length)) break;
+    if (!base::receive_all(socket_, std::as_writable_bytes(std::span(&length, 1)))) break;
     if (length > door::most_frame_bytes) {
       error = "what comes is no frame of a program: " + std::to_string(length) + " bytes are announced";
       break;
     }
     bytes.resize(static_cast<std::size_t>(length));
-    if (!read_all(bytes.data(), bytes.size())) break;
+    if (!base::receive_all(socket_, bytes)) break;
     auto frame = door::live_frame_of(bytes);
     gpu::Gpu trial;
     if (frame && trial.load(frame->state)) frame = base::fail("a frame's state is not one of this program's");

@@ -40,7 +40,6 @@ class LiveLink {
 
  private:
   void read_frames();
-  [[nodiscard]] bool read_all(void* to, std::size_t bytes) const;
 
   int socket_;
   std::function<void()> wake_;

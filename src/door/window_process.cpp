@@ -17,6 +17,8 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/socket.h"
+
 extern char** environ;
 
 namespace door {
@@ -24,16 +26,6 @@ namespace door {
 namespace {
 
 constexpr int window_socket = 3;  // its number in the window's process
-
-bool send_all(int socket, std::span<const std::byte> bytes) {
-  while (!bytes.empty()) {
-    const auto sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    bytes = bytes.subspan(static_cast<std::size_t>(sent));
-  }
-  return true;
-}
 
 bool ends_within(pid_t child, std::chrono::milliseconds time) {
   const auto end = std::chrono::steady_clock::now() + time;
@@ -122,7 +114,8 @@ void WindowProcess::send_frames() {
       frame = outbox_;  // stays: is_ready() says when it is gone
     }
     const std::uint64_t length = frame.size();
-    const bool went = send_all(socket_, std::as_bytes(std::span(&length, 1))) && send_all(socket_, frame);
+    const bool went =
+        base::send_all(socket_, std::as_bytes(std::span(&length, 1))) && base::send_all(socket_, frame);
     const std::lock_guard lock(mutex_);
     if (!went) return;  // nobody is there: poll() finds out
     outbox_.clear();

@@ -1,12 +1,13 @@
 #include "sdk/remote.h"
 
 #include <poll.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
-#include <cerrno>
 #include <cstring>
+#include <span>
 #include <type_traits>
+
+#include "base/socket.h"
 
 namespace sdk {
 namespace {
@@ -103,30 +104,6 @@ void carry(Archive& a, TakenFrame& f) {
   }
 }
 
-bool send_all(int socket, const void* from, std::size_t size) {
-  const auto* at = static_cast<const char*>(from);
-  while (size != 0) {
-    const auto sent = ::send(socket, at, size, MSG_NOSIGNAL);
-    if (sent < 0 && errno == EINTR) continue;
-    if (sent <= 0) return false;
-    at += sent;
-    size -= static_cast<std::size_t>(sent);
-  }
-  return true;
-}
-
-bool receive_all(int socket, void* to, std::size_t size) {
-  auto* at = static_cast<char*>(to);
-  while (size != 0) {
-    const auto came = ::recv(socket, at, size, 0);
-    if (came < 0 && errno == EINTR) continue;
-    if (came <= 0) return false;
-    at += came;
-    size -= static_cast<std::size_t>(came);
-  }
-  return true;
-}
-
 constexpr std::uint8_t orders_kind = 1, frame_kind = 2, progress_kind = 3;
 
 }  // namespace
@@ -135,15 +112,17 @@ Line::~Line() { ::close(socket_); }
 
 bool Line::send_message(std::uint8_t kind, const std::vector<std::byte>& bytes) {
   const std::uint64_t size = bytes.size();
-  return send_all(socket_, &kind, sizeof kind) && send_all(socket_, &size, sizeof size) &&
-         send_all(socket_, bytes.data(), bytes.size());
+  return base::send_all(socket_, std::as_bytes(std::span(&kind, 1))) &&
+         base::send_all(socket_, std::as_bytes(std::span(&size, 1))) && base::send_all(socket_, bytes);
 }
 
 bool Line::receive_message(std::uint8_t& kind, std::vector<std::byte>& bytes) {
   std::uint64_t size = 0;
-  if (!receive_all(socket_, &kind, sizeof kind) || !receive_all(socket_, &size, sizeof size)) return false;
+  if (!base::receive_all(socket_, std::as_writable_bytes(std::span(&kind, 1))) ||
+      !base::receive_all(socket_, std::as_writable_bytes(std::span(&size, 1))))
+    return false;
   bytes.resize(size);
-  return receive_all(socket_, bytes.data(), bytes.size());
+  return base::receive_all(socket_, bytes);
 }
 
 bool Line::send(Orders orders) {
