@@ -98,7 +98,6 @@ class Live final : public ClipDrawer {
                                  const CameraOffset& camera) override;
   [[nodiscard]] std::unique_ptr<Subject> another(const scene::Knobs& knobs) const override;
   [[nodiscard]] std::unique_ptr<Subject> apart(std::int64_t frame, const scene::Knobs& knobs) override;
-  [[nodiscard]] std::optional<std::int64_t> first_frame() const override { return reel_->first(); }
   [[nodiscard]] std::optional<std::int64_t> last_frame() const override { return reel_->last(); }
 
  private:

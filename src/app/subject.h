@@ -55,8 +55,6 @@ class Subject {
   [[nodiscard]] virtual bool is_recording() const { return false; }
   /// A program that runs now; nullptr: it is something else.
   [[nodiscard]] virtual Live* live() { return nullptr; }
-  /// Number of the first frame that there still is.
-  [[nodiscard]] virtual std::optional<std::int64_t> first_frame() const { return 1; }
   /// Number of its last frame so far, from 1; nothing: it goes on for ever, from 0.
   [[nodiscard]] virtual std::optional<std::int64_t> last_frame() const { return std::nullopt; }
   /// New frames are made behind the last one while it is played: a program that runs. Frames before it can be

@@ -189,7 +189,7 @@ void add_state(std::span<const std::byte> state, dump::Dump& dump) {
 void write_clip(const Clip& clip, dump::DumpWriter& writer) {
   dump::Dump before;
   add_state(clip.state, before);
-  for (const auto& packet : before.packets) writer.add(packet.type, before.payload(packet));
+  dump::add_packets(before, writer);
   for (const auto& item : clip.items) {
     writer.add(item.is_control ? dump::PacketType::port1 : dump::PacketType::port0, item.words);
   }

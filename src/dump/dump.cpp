@@ -360,12 +360,7 @@ void DumpWriter::add(PacketType type, std::span<const std::uint32_t> payload) {
 
 void DumpWriter::add_text(PacketType type, std::string_view text) { add(type, words_of(text)); }
 
-std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format) {
-  std::vector<std::byte> out;
-  out.reserve(standard_magic.size() + 4 * (dump.words.size() + dump.packets.size()));
-  DumpWriter writer(format, [&out](std::span<const std::byte> bytes) {
-    out.insert(out.end(), bytes.begin(), bytes.end());
-  });
+void add_packets(const Dump& dump, DumpWriter& writer) {
   for (const auto& packet : dump.packets) {
     if (packet.type == PacketType::gpu_version) {
       writer.add(packet.type, std::span(&dump.gpu_version, 1));
@@ -373,6 +368,15 @@ std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format) {
       writer.add(packet.type, dump.payload(packet));
     }
   }
+}
+
+std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format) {
+  std::vector<std::byte> out;
+  out.reserve(standard_magic.size() + 4 * (dump.words.size() + dump.packets.size()));
+  DumpWriter writer(format, [&out](std::span<const std::byte> bytes) {
+    out.insert(out.end(), bytes.begin(), bytes.end());
+  });
+  add_packets(dump, writer);
   return out;
 }
 

@@ -117,6 +117,9 @@ class DumpWriter {
   std::uint64_t held_bytes_ = 0, words_ = 0;
 };
 
+/// All packets of a dump.
+void add_packets(const Dump& dump, DumpWriter& writer);
+
 /// The file that parse_dump reads back to the same packets.
 std::vector<std::byte> write_dump(const Dump& dump, DumpFormat format);
 

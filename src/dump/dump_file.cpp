@@ -141,4 +141,11 @@ base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat form
   });
 }
 
+base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat format, const Dump& dump) {
+  return write_dump(path, format, [&dump](DumpWriter& writer) {
+    add_packets(dump, writer);
+    return base::Result<void>{};
+  });
+}
+
 }  // namespace dump

@@ -48,4 +48,7 @@ base::Result<Dump> read_dump(const std::filesystem::path& path);
 base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat format,
                               const std::function<base::Result<void>(DumpWriter&)>& make);
 
+/// Writes a dump that is in memory.
+base::Result<void> write_dump(const std::filesystem::path& path, DumpFormat format, const Dump& dump);
+
 }  // namespace dump

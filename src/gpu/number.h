@@ -27,6 +27,11 @@ struct Number {
   bool operator==(const Number&) const = default;
 };
 
+/// Whether it comes before the other in the order sent.
+inline bool is_before(const Number& a, const Number& b) {
+  return a.frame != b.frame ? a.frame < b.frame : a.command < b.command;
+}
+
 /// "3:17", "3:17:512".
 std::string to_text(const Number& number);
 

@@ -324,11 +324,7 @@ class Host {
     }
     if (!settings_.record.empty()) {
       const auto& recording = *console.feed.recording();
-      const auto add_all = [&recording](dump::DumpWriter& writer) -> base::Result<void> {
-        for (const auto& packet : recording.packets) writer.add(packet.type, recording.payload(packet));
-        return {};
-      };
-      if (auto done = dump::write_dump(settings_.record, dump::DumpFormat::standard, add_all); !done)
+      if (auto done = dump::write_dump(settings_.record, dump::DumpFormat::standard, recording); !done)
         return done;
     }
     if (!settings_.ram.empty()) {

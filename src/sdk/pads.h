@@ -8,17 +8,13 @@
 #include <string>
 #include <string_view>
 
+#include "app/window/pad_keys.h"
 #include "base/result.h"
 
 namespace sdk {
 
-/// One controller. `buttons`: bits of PadButton, 1 while held; sticks 0..255, 128 in the middle.
-struct PadState {
-  std::uint16_t buttons = 0;
-  std::array<std::uint8_t, 4> sticks{128, 128, 128, 128};  ///< right x, y, left x, y
-  bool is_analog = false;
-  bool operator==(const PadState&) const = default;
-};
+/// One controller; bits of PadButton.
+using PadState = app::PadHeld;
 
 /// What is held from a frame on.
 using PadScript = std::map<std::uint32_t, PadState>;

@@ -24,6 +24,12 @@ void ProgramLint::note(std::string_view kind, CallSite site, std::string text) {
   ++findings_[at->second].times;
 }
 
+std::string to_text(const Finding& finding) {
+  auto text = finding.text + " (frame " + std::to_string(finding.frame);
+  if (finding.times > 1) text += ", " + std::to_string(finding.times) + " times";
+  return text + ")";
+}
+
 std::optional<std::size_t> ProgramLint::table_of(std::uint32_t entry) const {
   const auto holds = [entry](const Table& t) { return entry >= t.address && entry < t.end(); };
   if (last_table_ < tables_.size() && holds(tables_[last_table_])) return last_table_;

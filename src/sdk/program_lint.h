@@ -36,6 +36,9 @@ struct Finding {
   std::uint64_t times = 0;
 };
 
+/// "what is wrong (frame 12, 2 times)".
+std::string to_text(const Finding& finding);
+
 class ProgramLint {
  public:
   /// Vertical blanks so far: what findings are dated with.

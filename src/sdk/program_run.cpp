@@ -232,7 +232,8 @@ void ProgramRun::take(TakenFrame& taken) {
   const auto [table, length] = main_table(taken.sent);
   for (auto& one : taken.sent) {
     const bool is_of_table = one.table_length != 0 && one.table == table && one.table_length == length;
-    sent.push_back({one.is_control, is_of_table ? one.bucket : gpu::no_bucket, one.address, {}, one.words});
+    sent.push_back(
+        {one.is_control, is_of_table ? one.bucket : gpu::no_bucket, one.address, {}, std::move(one.words)});
   }
   RunFrame frame{taken.number, {}, 0};
   frame.clip.state = std::move(taken.state);
@@ -242,9 +243,7 @@ void ProgramRun::take(TakenFrame& taken) {
   frame.clip.notes = notes_of(taken);
   name_origins(frame.clip, taken.sent);
   for (const auto& finding : taken.findings) {
-    auto text = finding.text + " (frame " + std::to_string(finding.frame);
-    if (finding.times > 1) text += ", " + std::to_string(finding.times) + " times";
-    frame.clip.lint.push_back({finding.kind, place_of(finding.site), text + ")"});
+    frame.clip.lint.push_back({finding.kind, place_of(finding.site), to_text(finding)});
   }
   frame.drawing = static_cast<std::uint64_t>(
       std::ranges::count_if(frame.clip.items, [](const debug::Item& item) { return item.is_drawing(); }));
@@ -302,11 +301,7 @@ base::Result<std::string> ProgramRun::write_recording() {
   const auto recording = std::move(*recording_);
   recording_.reset();
   if (recording.next == 0) return std::string("nothing was recorded: no frame was drawn meanwhile");
-  const auto add_all = [&recording](dump::DumpWriter& writer) -> base::Result<void> {
-    for (const auto& packet : recording.dump.packets) writer.add(packet.type, recording.dump.payload(packet));
-    return {};
-  };
-  if (auto done = dump::write_dump(recording.path, dump::DumpFormat::standard, add_all); !done)
+  if (auto done = dump::write_dump(recording.path, dump::DumpFormat::standard, recording.dump); !done)
     return tl::make_unexpected(done.error());
   return "recorded frames " + std::to_string(recording.first) + " to " + std::to_string(recording.next - 1) +
          ": " + recording.path;

@@ -53,14 +53,6 @@ std::optional<std::int64_t> ProgramSubject::last_frame() const {
   return std::max<std::int64_t>(run_->last(), 1);
 }
 
-void ProgramSubject::hold(const app::PadHeld& pad) {
-  PadState state;
-  state.buttons = pad.buttons;
-  state.sticks = pad.sticks;
-  state.is_analog = pad.is_analog;
-  run_->hold(state);
-}
-
 std::string ProgramSubject::why_idle(const scene::KnobInfo& knob) const {
   return app::applies_to_recordings(knob.name)
              ? std::string()

@@ -31,7 +31,7 @@ class ProgramSubject final : public app::ClipDrawer {
   [[nodiscard]] bool is_behind() const override { return is_behind_; }
   [[nodiscard]] double progress() const override { return run_->progress(); }
   [[nodiscard]] bool wants_pad() const override { return true; }
-  void hold(const app::PadHeld& pad) override;
+  void hold(const app::PadHeld& pad) override { run_->hold(pad); }
   base::Result<std::string> record(const std::string& path) override { return run_->record(path); }
   [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
 

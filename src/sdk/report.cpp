@@ -43,10 +43,7 @@ std::string to_text(Console& console, const Ending& ending, const std::string& p
   const auto& findings = console.lint.findings();
   const auto where = places(findings);
   for (std::size_t i = 0; i < findings.size(); ++i) {
-    const auto& f = findings[i];
-    out << where[i] << ": " << f.kind << ": " << f.text << " (frame " << f.frame;
-    if (f.times > 1) out << ", " << f.times << " times";
-    out << ")\n";
+    out << where[i] << ": " << findings[i].kind << ": " << to_text(findings[i]) << "\n";
   }
   return out.str();
 }

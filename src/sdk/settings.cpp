@@ -8,6 +8,7 @@
 
 #include "app/commands/arguments.h"
 #include "app/commands/without_depth.h"
+#include "app/source.h"
 
 namespace sdk {
 namespace {
@@ -82,11 +83,7 @@ base::Result<Settings> parse_settings(int argc, const char* const* argv) {
       ->check(CLI::IsMember({"drawn", "display"}).description(""));
   add_window(app::Arguments(line), s.window);
   line.add_option("--serve", s.served, "")->group("");
-  app::Arguments(line).knobs(
-      s.knobs,
-      {"visibility", "depth", "depth-mapping", "depth-test", "depth-reversed", "near", "far", "position",
-       "texture", "filter", "colour", "antialias", "aa-filter", "aa-space", "resolution", "without-depth"},
-      &s.window.named_knobs);
+  app::Arguments(line).knobs(s.knobs, app::recording_knobs, &s.window.named_knobs);
   try {
     line.parse(argc, argv);
   } catch (const CLI::CallForHelp& help) {
@@ -94,8 +91,7 @@ base::Result<Settings> parse_settings(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     return base::fail(app::one_line(error) + " (see ./" + name + " --help)");
   }
-  s.arguments.assign(argv + 1, argv + argc);
-  if (!shown.empty()) s.shown = shown == "drawn" ? app::Shown::drawn : app::Shown::display;
+  s.shown = app::shown_named(shown);
   for (std::size_t i = 0; i < pads.size(); ++i) {
     if (pads[i].empty()) continue;
     auto script = parse_pad_script(pads[i]);

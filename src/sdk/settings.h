@@ -33,7 +33,6 @@ struct Settings {
   } window;
   std::array<PadScript, 2> pads;
   std::optional<int> served;  ///< this process runs the program for a window, which listens at the socket
-  std::vector<std::string> arguments;  ///< as given, without the program's name
   scene::Knobs knobs;
 
   [[nodiscard]] bool is_headless() const { return frames.has_value() || served.has_value(); }

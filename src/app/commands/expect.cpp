@@ -131,10 +131,6 @@ struct KindRow {
   std::vector<std::string> history;    ///< of that pixel, in the frame of that command
 };
 
-bool is_before(const debug::Number& a, const debug::Number& b) {
-  return std::pair(a.frame, a.command) < std::pair(b.frame, b.command);
-}
-
 std::string command_in_words(debug::Timeline& timeline, const debug::Number& number) {
   if (number.command == 0) return "what goes on from the frame before";
   return debug::describe(timeline.dump(), timeline.commands(number.frame)[number.command - 1]);
@@ -150,7 +146,7 @@ std::vector<KindRow> blame(debug::Timeline& timeline, const debug::Number& momen
     const auto& writer = writers[n];
     const std::string kind = writer ? std::string(debug::name(writer->kind)) : "nothing";
     KindRow& row = rows[kind];
-    const bool is_first = ++row.pixels == 1 || (writer && is_before(writer->number, *row.first));
+    const bool is_first = ++row.pixels == 1 || (writer && gpu::is_before(writer->number, *row.first));
     if (!is_first) continue;
     if (writer) row.first = writer->number;
     row.example = comparison.differences[n];

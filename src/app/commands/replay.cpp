@@ -71,7 +71,7 @@ struct End {
 };
 
 void make_earlier(debug::Number& moment, const debug::Number& other) {
-  if (std::pair(other.frame, other.command) < std::pair(moment.frame, moment.command)) moment = other;
+  if (gpu::is_before(other, moment)) moment = other;
 }
 
 /// --until K counts drawing commands, --until F:K all of frame F.

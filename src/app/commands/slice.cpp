@@ -92,7 +92,7 @@ base::Result<int> run_slice(const SliceOptions& options) {
         writer.add_text(dump::PacketType::comment, "otter: slice of " + options.source + ", frame " +
                                                        std::to_string(options.frame) + ", " + options.pixel +
                                                        " " + options.size);
-        for (const auto& packet : sliced->dump.packets) writer.add(packet.type, sliced->dump.payload(packet));
+        dump::add_packets(sliced->dump, writer);
         words = writer.words();
         return {};
       });
