@@ -27,37 +27,22 @@ static_assert(agrees("up", PAD_UP) && agrees("right", PAD_RIGHT) && agrees("down
               agrees("L2", PAD_L2) && agrees("R1", PAD_R1) && agrees("R2", PAD_R2) &&
               agrees("start", PAD_START) && agrees("select", PAD_SELECT));
 
-base::Result<void> open_panels(const std::vector<std::string>& names, app::WindowState& first) {
-  for (const auto& name : names) {
-    const auto panel = app::panel_named(name);
-    if (!panel)
-      return base::fail("--panel: expected some of knobs, inspect, cost, table, vram, got '" + name + "'");
-    first.dock.raise(*panel);
-  }
-  return {};
-}
-
 }  // namespace
 
 base::Result<int> show_in_window(const Settings& settings, const std::string& name) {
   app::WindowOptions options;
   auto& first = options.first;
   const auto& asked = settings.window;
-  if (asked.settings != "none" && !asked.quit_after) {
-    options.settings = asked.settings.empty() ? app::default_settings_file() : asked.settings;
-  }
+  options.settings = app::settings_file(asked.settings, asked.quit_after.has_value());
   const auto remembered = options.settings ? app::read_settings(*options.settings) : app::Settings{};
-  first.knobs = remembered.knobs;
-  app::overrule(first.knobs, settings.knobs, asked.named_knobs);
+  app::begin_with(remembered, settings.knobs, asked.named_knobs, first);
   if (first.knobs.visibility != scene::Visibility::zbuffer) first.knobs.visibility = scene::Visibility::ot;
   app::set_visibility(first, first.knobs.visibility);
-  first.dock = remembered.dock;
-  first.text_size = remembered.text_size;
-  first.pace = remembered.pace;
   first.frame = asked.frame;
   first.paused = asked.is_paused;
   first.split = asked.is_split;
-  if (auto opened = open_panels(asked.panels, first); !opened) return tl::make_unexpected(opened.error());
+  if (auto opened = app::raise_panels(asked.panels, first.dock); !opened)
+    return tl::make_unexpected(opened.error());
   options.scale = asked.scale;
   options.frames = asked.quit_after;
   options.screenshot = asked.screenshot;

@@ -61,6 +61,19 @@ std::optional<Panel> panel_named(std::string_view name) {
   return static_cast<Panel>(found - panel_names.begin());
 }
 
+base::Result<void> raise_panels(const std::vector<std::string>& names, Dock& dock) {
+  for (const auto& name : names) {
+    if (const auto panel = panel_named(name)) {
+      dock.raise(*panel);
+      continue;
+    }
+    std::string all;
+    for (const auto known : panel_names) all.append(all.empty() ? "" : ", ").append(known);
+    return base::fail("--panel: expected some of " + all + ", got '" + name + "'");
+  }
+  return {};
+}
+
 bool Dock::is_open(Panel panel) const { return std::find(open.begin(), open.end(), panel) != open.end(); }
 
 void Dock::raise(Panel panel) {

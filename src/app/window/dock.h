@@ -4,10 +4,12 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/window/layout.h"
+#include "base/result.h"
 
 namespace app {
 
@@ -39,6 +41,9 @@ struct Dock {
   void toggle(Panel panel) { is_open(panel) ? close(panel) : raise(panel); }
   void move_over(Panel panel);  ///< to the other side
 };
+
+/// Opens panels by name, the last in front. Error: a name that is none, and what was expected.
+base::Result<void> raise_panels(const std::vector<std::string>& names, Dock& dock);
 
 struct Docked {
   Panel panel = Panel::knobs;

@@ -31,40 +31,17 @@ struct RunOptions {
   WindowOptions window;
 };
 
-// Of a run of so many frames nothing is remembered, and nothing is read but what is named: it is to give the
-// same picture every time.
-std::optional<std::filesystem::path> settings_file(const RunOptions& options) {
-  if (options.settings == "none") return std::nullopt;
-  if (!options.settings.empty()) return options.settings;
-  return options.window.frames ? std::nullopt : default_settings_file();
-}
-
-std::string all_panels() {
-  std::string text;
-  for (const auto name : panel_names) text.append(text.empty() ? "" : ", ").append(name);
-  return text;
-}
-
 // What was remembered, then what the command line says.
 base::Result<void> prepare(RunOptions& options) {
   auto& window = options.window;
   auto& first = window.first;
-  window.settings = settings_file(options);
+  window.settings = settings_file(options.settings, options.window.frames.has_value());
   const auto remembered = window.settings ? read_settings(*window.settings) : Settings{};
-  const auto asked = std::exchange(first.knobs, remembered.knobs);
-  overrule(first.knobs, asked, options.named_knobs);
-  if (!scene::check_knobs(first.knobs)) first.knobs = asked;  // what is asked for does not go with the rest
-  first.dock = remembered.dock;
-  first.text_size = remembered.text_size;
-  first.pace = remembered.pace;
+  begin_with(remembered, scene::Knobs(first.knobs), options.named_knobs, first);
   for (std::size_t i = 0; i < pace_words.size(); ++i) {
     if (options.pace == pace_words[i]) first.pace = static_cast<Pace>(i);
   }
-  for (const auto& name : options.panels) {
-    const auto panel = panel_named(name);
-    if (!panel) return base::fail("--panel: expected some of " + all_panels() + ", got '" + name + "'");
-    first.dock.raise(*panel);
-  }
+  if (auto raised = raise_panels(options.panels, first.dock); !raised) return raised;
   if (options.camera.empty()) return {};
   const auto camera = parse_camera(options.camera);
   if (!camera) return tl::make_unexpected(camera.error());

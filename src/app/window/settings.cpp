@@ -195,4 +195,20 @@ void overrule(scene::Knobs& remembered, const scene::Knobs& asked, const std::ve
   }
 }
 
+std::optional<std::filesystem::path> settings_file(const std::string& asked, bool is_counted) {
+  if (asked == "none") return std::nullopt;
+  if (!asked.empty()) return asked;
+  return is_counted ? std::nullopt : default_settings_file();
+}
+
+void begin_with(const Settings& remembered, const scene::Knobs& asked, const std::vector<std::string>& named,
+                WindowState& first) {
+  first.knobs = remembered.knobs;
+  overrule(first.knobs, asked, named);
+  if (!scene::check_knobs(first.knobs)) first.knobs = asked;
+  first.dock = remembered.dock;
+  first.text_size = remembered.text_size;
+  first.pace = remembered.pace;
+}
+
 }  // namespace app

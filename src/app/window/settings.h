@@ -39,6 +39,15 @@ Settings read_settings(const std::filesystem::path& file);
 /// Makes the folder too. A line on stderr if it cannot be written.
 void write_settings(const std::filesystem::path& file, const Settings& settings);
 
+/// What --settings means: a file, "none", or nothing said: then the usual file, but of a run that is
+/// `counted`, which is to give the same picture every time, none.
+std::optional<std::filesystem::path> settings_file(const std::string& asked, bool is_counted);
+
+/// The window as it was left, then what is asked for. Remembered knobs that do not go with those asked for
+/// are left out.
+void begin_with(const Settings& remembered, const scene::Knobs& asked, const std::vector<std::string>& named,
+                WindowState& first);
+
 /// Knobs that were named on the command line count more than remembered ones.
 void overrule(scene::Knobs& remembered, const scene::Knobs& asked, const std::vector<std::string>& named);
 
