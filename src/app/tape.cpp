@@ -92,17 +92,21 @@ base::Result<DrawnClip> draw_clip(const debug::Clip& clip, const scene::Knobs& k
   const bool by_bucket = knobs.without_depth == scene::WithoutDepth::bucket && clip.buckets != 0;
   const auto canvas = canvas_of(knobs);
   DrawnClip drawn;
+  base::Result<std::optional<machine::Corner>> placed;
   debug::PlayOptions options{.depth = canvas ? std::nullopt : scene::depth_options(knobs), .trace = trace};
   options.before = [&](std::size_t number) {
     const auto& item = clip.items[number];
     if (by_bucket && item.bucket < clip.buckets) {
       gpu.set_default_depth(gpu::depth_of_bucket(item.bucket, clip.buckets));
     }
-    if (canvas && !drawn.canvas && item.is_drawing()) drawn.canvas = machine::place_canvas(gpu, *canvas);
+    if (!canvas || drawn.canvas || !placed || !item.is_drawing()) return;
+    placed = machine::place_canvas(gpu, *canvas);
+    if (placed) drawn.canvas = *placed;
   };
   gpu.set_canvas(std::nullopt);
   drawn.end = debug::play(clip, gpu, options);
   gpu.set_default_depth(std::nullopt);
+  if (!placed) return tl::make_unexpected(placed.error());
   drawn.stats.primitives = static_cast<std::uint32_t>(std::count_if(
       clip.items.begin(), clip.items.end(), [](const auto& item) { return item.is_drawing(); }));
   drawn.stats.faces = drawn.stats.primitives;
@@ -110,16 +114,20 @@ base::Result<DrawnClip> draw_clip(const debug::Clip& clip, const scene::Knobs& k
   return drawn;
 }
 
-namespace {
-
-/// `area` of the picture on the canvas; nothing where it does not lie there.
-std::optional<base::Picture> part_of_canvas(const DrawnClip& drawn, const gpu::Gpu& gpu,
-                                            const display::Area& area, const scene::Knobs& knobs) {
-  if (!drawn.canvas) return std::nullopt;
+bool is_on_canvas(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area) {
+  if (!drawn.canvas) return false;
   const auto& size = gpu.canvas()->options();
   const int left = area.x - drawn.canvas->x, top = area.y - drawn.canvas->y;
-  if (left < 0 || top < 0 || left + area.width > size.width || top + area.height > size.height)
-    return std::nullopt;
+  return left >= 0 && top >= 0 && left + area.width <= size.width && top + area.height <= size.height;
+}
+
+namespace {
+
+/// `area` of the picture on the canvas, where it lies.
+base::Picture part_of_canvas(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area,
+                             const scene::Knobs& knobs) {
+  const auto& size = gpu.canvas()->options();
+  const int left = area.x - drawn.canvas->x, top = area.y - drawn.canvas->y;
   auto whole = machine::Presenter().show(gpu, knobs);
   if (area.width == size.width && area.height == size.height) return whole;
   const int across = whole.width / size.width, down = whole.height / size.height;
@@ -134,12 +142,11 @@ std::optional<base::Picture> part_of_canvas(const DrawnClip& drawn, const gpu::G
 base::Picture picture_of_clip(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area,
                               const scene::Knobs& knobs) {
   if (area.width <= 0 || area.height <= 0) return {320, 240};
-  machine::Presenter presenter;
-  if (auto picture = part_of_canvas(drawn, gpu, area, knobs)) return *std::move(picture);
-  return presenter.show(display::scan_out(gpu.vram().pixels(), area), knobs);
+  if (is_on_canvas(drawn, gpu, area)) return part_of_canvas(drawn, gpu, area, knobs);
+  return machine::Presenter::show(display::scan_out(gpu.vram().pixels(), area), knobs);
 }
 
-std::vector<const scene::KnobInfo*> unwatched_of_clips(const scene::Knobs& knobs) {
+std::vector<const scene::KnobInfo*> ClipDrawer::unwatched_knobs(const scene::Knobs& knobs) {
   std::vector<const scene::KnobInfo*> asking;
   for (const auto& knob : scene::knob_table()) {
     if (!applies_to_recordings(knob.name)) continue;
@@ -151,10 +158,10 @@ std::vector<const scene::KnobInfo*> unwatched_of_clips(const scene::Knobs& knobs
   return asking;
 }
 
-std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu) {
-  const auto pixels = gpu.vram().pixels();
+std::vector<std::uint16_t> ClipDrawer::vram() const {
+  const auto pixels = gpu_.vram().pixels();
   std::vector<std::uint16_t> copy(pixels.begin(), pixels.end());
-  const auto* canvas = gpu.canvas();
+  const auto* canvas = gpu_.canvas();
   if (canvas != nullptr && canvas->options().can_be_watched()) canvas->put_into(copy);
   return copy;
 }

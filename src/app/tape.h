@@ -37,31 +37,28 @@ struct DrawnClip {
   std::optional<machine::Corner> canvas;  ///< where in VRAM the canvas lies, if the knobs ask for one
 };
 /// Draws a clip as the knobs say, on a canvas where they ask for one. Error: knobs that a recording cannot
-/// meet.
+/// meet, a canvas that is too large.
 base::Result<DrawnClip> draw_clip(const debug::Clip& clip, const scene::Knobs& knobs, gpu::Gpu& gpu,
                                   gpu::Trace* trace);
+/// Whether all of `area` lies on its canvas.
+bool is_on_canvas(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area);
 /// What `area` shows of it: the canvas where it lies there, or VRAM. An empty area is a black picture.
 base::Picture picture_of_clip(const DrawnClip& drawn, const gpu::Gpu& gpu, const display::Area& area,
                               const scene::Knobs& knobs);
 /// Whether the knobs ask for more samples, bits or fractions than VRAM has.
 bool asks_for_canvas(const scene::Knobs& knobs);
-/// See Subject::unwatched_knobs.
-std::vector<const scene::KnobInfo*> unwatched_of_clips(const scene::Knobs& knobs);
-/// VRAM, with the canvas in 16 bits where it can be watched.
-std::vector<std::uint16_t> vram_of(const gpu::Gpu& gpu);
 
 /// What is drawn from clips: a recording, or a program that runs.
 class ClipDrawer : public Subject {
  public:
   void watch(gpu::Trace* trace) override { trace_ = trace; }
   [[nodiscard]] const base::Picture& picture() const override { return picture_; }
-  [[nodiscard]] std::vector<std::uint16_t> vram() const override { return vram_of(gpu_); }
+  /// With the canvas in 16 bits where it can be watched.
+  [[nodiscard]] std::vector<std::uint16_t> vram() const override;
   [[nodiscard]] const gpu::Gpu& gpu() const override { return gpu_; }
   [[nodiscard]] display::Area area() const override { return shown_area(gpu_, shown_); }
   [[nodiscard]] bool is_recording() const override { return true; }
-  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override {
-    return unwatched_of_clips(knobs);
-  }
+  [[nodiscard]] std::vector<const scene::KnobInfo*> unwatched_knobs(const scene::Knobs& knobs) override;
   [[nodiscard]] std::string why_idle(const scene::KnobInfo& knob) const override;
   [[nodiscard]] std::string why_empty() const override { return why_empty_; }
 

@@ -1,5 +1,7 @@
 #include "machine/canvas_place.h"
 
+#include "scene/accurate.h"
+
 namespace machine {
 
 bool draws_picture(const gpu::Gpu& gpu) {
@@ -8,11 +10,12 @@ bool draws_picture(const gpu::Gpu& gpu) {
   return width > 0 && height > 0 && width * height * 2 >= gpu.display().width() * gpu.display().height();
 }
 
-std::optional<Corner> place_canvas(gpu::Gpu& gpu, gpu::canvas::Options options) {
+base::Result<std::optional<Corner>> place_canvas(gpu::Gpu& gpu, gpu::canvas::Options options) {
   if (!draws_picture(gpu)) return std::nullopt;
   const auto& state = gpu.state();
   options.width = state.right() - state.left() + 1;
   options.height = state.bottom() - state.top() + 1;
+  if (auto checked = scene::check_size(options); !checked) return tl::make_unexpected(checked.error());
   gpu.set_canvas(options);
   gpu.begin_frame(state.left(), state.top());
   return Corner{state.left(), state.top()};

@@ -7,13 +7,18 @@ namespace scene {
 
 namespace canvas = gpu::canvas;
 
+base::Result<void> check_size(const canvas::Options& options) {
+  const auto bytes = canvas::Canvas::frame_bytes(options);
+  if (bytes <= canvas_limit_bytes) return {};
+  return base::fail("--resolution and --antialias ask for a frame of " + std::to_string(bytes) +
+                    " bytes; expected at most " + std::to_string(canvas_limit_bytes));
+}
+
 base::Result<void> use_targets(const Plan& plan, gpu::Gpu& gpu) {
   auto wanted = plan.canvas;
   if (wanted && gpu.canvas() != nullptr) wanted->trace = gpu.canvas()->options().trace;
-  if (wanted && canvas::Canvas::frame_bytes(*wanted) > canvas_limit_bytes) {
-    return base::fail("--resolution and --antialias ask for a frame of " +
-                      std::to_string(canvas::Canvas::frame_bytes(*wanted)) + " bytes; expected at most " +
-                      std::to_string(canvas_limit_bytes));
+  if (wanted) {
+    if (auto checked = check_size(*wanted); !checked) return checked;
   }
   if (wanted && plan.sorting == Sorting::split &&
       (wanted->layers.size() > 1 || !wanted->samples.empty() || wanted->temporal || wanted->scale > 4)) {

@@ -142,8 +142,13 @@ void Feed::check_texture(std::span<const std::uint32_t> words) {
 void Feed::place_canvas() {
   if (!targets_.canvas || canvas_is_open_) return;
   const auto corner = machine::place_canvas(gpu_, *targets_.canvas);
-  if (!corner) return;
-  corner_ = corner;
+  if (!corner) {
+    canvas_fault_ = corner.error();
+    targets_.canvas.reset();
+    return;
+  }
+  if (!*corner) return;
+  corner_ = *corner;
   canvas_is_open_ = true;
 }
 

@@ -71,6 +71,8 @@ class Feed {
   [[nodiscard]] std::uint64_t polygons_without_depth() const { return without_depth_; }
   /// Where the canvas of the frame that ended last lies in VRAM; nothing: no canvas was drawn.
   [[nodiscard]] std::optional<machine::Corner> canvas_corner() const { return corner_; }
+  /// Why there is no canvas though the targets had one: it would have been too large.
+  [[nodiscard]] const std::optional<base::Error>& canvas_fault() const { return canvas_fault_; }
 
  private:
   void command(std::span<const std::uint32_t> words, std::uint32_t address);
@@ -89,6 +91,7 @@ class Feed {
   ot::CommandStream stream_;  // where commands begin
   bool frame_is_open_ = false, canvas_is_open_ = false;
   std::optional<machine::Corner> corner_;
+  std::optional<base::Error> canvas_fault_;
   std::uint64_t without_depth_ = 0;
   std::optional<dump::Dump> dump_;
   bool records_depth_ = false;

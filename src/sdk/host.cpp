@@ -287,6 +287,7 @@ class Host {
       console.feed.next_field();
       screen_.end_frame();
     }
+    if (const auto& fault = console.feed.canvas_fault()) return complain(*fault);
     const auto judged = judge_without_depth();
     std::fflush(stdout);
     if (settings_.json != "-") std::fputs(to_text(console, ending_, name_).c_str(), stderr);

@@ -66,6 +66,38 @@ TEST_SUITE("otter") {
     CHECK_FALSE(folder.has("x.png"));
   }
 
+  TEST_CASE("a canvas over more than is displayed shows what is displayed of the frame asked for") {
+    const Folder folder;
+    dump::Dump dump;
+    dump.add(PacketType::port1, Words{0x03000000, 0x08000001});
+    dump.add(PacketType::port0, Words{0xe3000000, 0xe4000000 | 1023 | 511 << 10});
+    for (std::uint32_t f = 0; f < 3; ++f) {
+      dump.add(PacketType::port0, Words{0x60000000U | 0x40U << 8 * f, 16 << 16, 0x00f00140});
+      dump.add(PacketType::port1, Words{0x05000000 | 16 << 10});
+      dump.add(PacketType::vsync);
+    }
+    folder.put("three.psxgpu", file_of(dump));
+    for (const std::string frame : {"1", "2", "3"}) {
+      const auto rendered =
+          folder.otter("render three.psxgpu --resolution 2 --frame " + frame + " -o " + frame + ".png");
+      CAPTURE(rendered.err);
+      CHECK(mentions(rendered.out, "640x480"));
+    }
+    CHECK(contents(folder.path / "1.png") != contents(folder.path / "2.png"));
+    CHECK(contents(folder.path / "1.png") != contents(folder.path / "3.png"));
+    CHECK(contents(folder.path / "2.png") != contents(folder.path / "3.png"));
+  }
+
+  TEST_CASE("a canvas over a large drawing area is refused where it would take more than the limit") {
+    const Folder folder;
+    folder.put("lines.psxgpu", file_of(moving_line()));  // draws everywhere: 1024 x 512
+    const auto refused = folder.otter("render lines.psxgpu -o x.png --resolution 8 --antialias ssaa-8x8");
+    CHECK(refused.status == 2);
+    CHECK(is_one_line(refused.err));
+    CHECK(mentions(refused.err, "bytes; expected at most"));
+    CHECK_FALSE(folder.has("x.png"));
+  }
+
   TEST_CASE("knobs that do nothing for a recording are named in one line") {
     const Folder folder;
     folder.put("lines.psxgpu", file_of(moving_line()));

@@ -40,7 +40,7 @@ base::Result<base::Picture> canvas_picture(debug::Timeline& timeline, const std:
                                            std::uint64_t frame, const scene::Knobs& knobs, Shown shown,
                                            const std::string& output) {
   display::Area area;
-  for (auto number = frame; number != 0 && number + buffers > frame; --number) {
+  for (auto number = frame;; --number) {
     gpu::Gpu gpu;
     const auto drawn = draw_clip(debug::clip_of(timeline, number), knobs, gpu, nullptr);
     if (!drawn) return tl::make_unexpected(drawn.error());
@@ -50,11 +50,9 @@ base::Result<base::Picture> canvas_picture(debug::Timeline& timeline, const std:
       area = shown_area(gpu, shown);
       if (area.width <= 0 || area.height <= 0) return shown_picture(gpu, output);
     }
-    const bool is_there = drawn->canvas == machine::Corner{area.x, area.y};
-    if (is_there || number == 1 || number + buffers == frame + 1)
-      return picture_of_clip(*drawn, gpu, area, knobs);
+    const bool is_last = number == 1 || frame - number + 1 == buffers;
+    if (is_last || is_on_canvas(*drawn, gpu, area)) return picture_of_clip(*drawn, gpu, area, knobs);
   }
-  return base::fail(output + ": nothing to show", base::Exit::failed);
 }
 
 }  // namespace
