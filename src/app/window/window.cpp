@@ -19,6 +19,7 @@
 #include "app/window/knob_panel.h"
 #include "app/window/layout.h"
 #include "app/window/lens.h"
+#include "app/window/live_follower.h"
 #include "app/window/metering.h"
 #include "app/window/overlay.h"
 #include "app/window/pacing.h"
@@ -73,8 +74,6 @@ class Window {
   void update();
   void show_vram();
   void follow_recording();
-  void follow_program(Live& live);
-  void tell_program(LiveLink& link);
   void inspect();
   void look_closely();
   void resolve_click();
@@ -119,11 +118,7 @@ class Window {
   DockLayout layout_;
   Rect bar_;  // of the frames of a recording
   bool is_indexing_ = true;
-  struct {
-    bool paused = false, fast = false;
-    Pace pace = Pace::vsync;
-  } told_;                    // to a live program
-  bool is_stepping_ = false;  // it was asked for one more frame
+  LiveFollower follower_;
   int shown_scene_ = -1;
   std::optional<std::size_t> lens_shown_;
   std::vector<std::vector<StatusPiece>> status_;
@@ -260,7 +255,11 @@ void Window::show_vram() {
 void Window::follow_recording() {
   auto* subject = show_.machine();
   if (subject == nullptr || show_.scene() != state_.scene) return;
-  if (auto* live = subject->live()) return follow_program(*live);
+  if (auto* live = subject->live()) {
+    const auto error = follower_.follow(*live, state_);
+    if (!error.empty() && message_ != error) say(error, true);
+    return;
+  }
   const auto last = subject->last_frame();
   state_.recorded.last = last.value_or(0);
   state_.recorded.is_growing = subject->is_growing();
@@ -273,49 +272,6 @@ void Window::follow_recording() {
   if (show_.different().value_or(0) != 0) {
     first_different_ = std::min(first_different_.value_or(state_.frame), state_.frame);
   }
-}
-
-// What a program that runs has sent; at rest its last frames are gone through.
-void Window::follow_program(Live& live) {
-  const auto before = live.reel().last();
-  live.take_frames();
-  auto& reel = live.reel();
-  state_.live.is_live = true;
-  state_.live.is_recording = live.is_recording_program();
-  state_.recorded.first = reel.first();
-  state_.recorded.last = reel.last();
-  const int go = std::exchange(state_.live.go, 0);
-  auto* link = live.link();
-  if (!state_.paused || (is_stepping_ && reel.last() > before)) {
-    state_.frame = reel.last();
-    is_stepping_ = false;
-  } else if (go < 0) {
-    state_.frame = reel.before(state_.frame);
-  } else if (go > 0 && state_.frame < reel.last()) {
-    state_.frame = reel.after(state_.frame);
-  } else if (go > 0 && link != nullptr) {
-    is_stepping_ = true;
-    link->ask(door::LiveAsk::step);
-  }
-  state_.frame = std::clamp(state_.frame, reel.first(), reel.last());
-  if (link != nullptr) tell_program(*link);
-}
-
-void Window::tell_program(LiveLink& link) {
-  using door::LiveAsk;
-  const auto& live = state_.live;
-  if (std::exchange(told_.paused, state_.paused) != state_.paused) link.ask(LiveAsk::pause, state_.paused);
-  if (std::exchange(told_.fast, live.fast) != live.fast) link.ask(LiveAsk::fast, live.fast);
-  if (std::exchange(told_.pace, state_.pace) != state_.pace)
-    link.ask(LiveAsk::pace, static_cast<std::uint32_t>(state_.pace));
-  for (const auto& key : std::exchange(state_.live.keys, {}))
-    link.ask(key.is_down ? LiveAsk::key_down : LiveAsk::key_up, key.keysym);
-  if (!link.has_ended()) {
-    if (state_.quit) link.ask(LiveAsk::close_program);
-    return;
-  }
-  if (const auto error = link.error(); !error.empty() && message_ != error) say(error, true);
-  if (link.error().empty()) state_.quit = true;  // with the program
 }
 
 bool Window::looks_closely() const {
